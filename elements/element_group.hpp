@@ -1,0 +1,77 @@
+// Elements come in groups of one kind, evaluated together. A group holds constants only; histories are in State.
+// A new element is one file with a class derived from ElementGroup, one line in models/build_elements.cpp and one test.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/types.hpp"
+#include "elements/sections.hpp"
+
+namespace nsframe {
+
+// End nodes of a two-node element; node -1 is the ground.
+using ElementNodes = std::array<int, 2>;
+
+// What an element looks like, for the output.
+struct ElementShape {
+  bool beam = false;              // drawn with Hermite shape functions, else a straight line
+  Matrix3 axes;                   // rows: local x, y, z in global axes
+  double length = 0;              // [m]
+  const SectionOutline* outline = nullptr;  // may be null or empty
+};
+
+// State of one integration point, for the output.
+struct SectionResult {
+  double position = 0;            // along the element, in [0, 1]
+  Vector3 deformation;            // e0 [-], kz, ky [1/m]
+  Vector3 force;                  // N [N], Mz, My [N m]
+  double peak_strain_ratio = 0;   // largest |strain| of a fiber over its yield strain, at present
+  double yielded = 0;             // 1 when a fiber carries plastic strain, else 0
+};
+
+class ElementGroup {
+ public:
+  virtual ~ElementGroup() = default;
+
+  virtual std::string_view kind() const = 0;
+  int size() const { return static_cast<int>(nodes_.size()); }
+  const ElementNodes& nodes(int element) const { return nodes_[static_cast<std::size_t>(element)]; }
+  const std::string& id(int element) const { return ids_[static_cast<std::size_t>(element)]; }
+
+  // True when force = tangent * displacement with a constant tangent: assembled once, never evaluated again.
+  virtual bool linear() const = 0;
+
+  // First history double of an element within its group's block, and after the last one the block's size.
+  virtual int history_begin(int element) const { (void)element; return 0; }
+  virtual void initialize_history(int element, double* history) const { (void)element; (void)history; }
+
+  // Internal force (12) and, if `tangent` is not null, its derivative (12x12), in global axes [N, N m], at the
+  // displacement (12) of the element's nodes. `committed` and `trial` are the element's own histories.
+  virtual void respond(int element, const Vector12& displacement, const double* committed, double* trial,
+                       Vector12& force, Matrix12* tangent) const = 0;
+
+  // Constant viscous damping matrix (12x12), global axes [N s/m]; zero for most.
+  virtual Matrix12 damping(int element) const { (void)element; return Matrix12::Zero(); }
+
+  virtual ElementShape shape(int element) const = 0;
+  // Results at the integration points; empty for elements without sections. `history` as left by respond().
+  virtual std::vector<SectionResult> sections(int element, const Vector12& displacement, const double* history) const {
+    (void)element; (void)displacement; (void)history;
+    return {};
+  }
+
+ protected:
+  void add(const ElementNodes& nodes, std::string id) {
+    nodes_.push_back(nodes);
+    ids_.push_back(std::move(id));
+  }
+
+ private:
+  std::vector<ElementNodes> nodes_;
+  std::vector<std::string> ids_;
+};
+
+}  // namespace nsframe

@@ -1,0 +1,58 @@
+// Elastic, perfectly plastic law with different yield strains in tension and compression (OpenSees' ElasticPP).
+#if defined(NSFRAME_MATERIALS_ELASTIC_PP_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef NSFRAME_MATERIALS_ELASTIC_PP_HPP
+#undef NSFRAME_MATERIALS_ELASTIC_PP_HPP
+#else
+#define NSFRAME_MATERIALS_ELASTIC_PP_HPP
+#endif
+
+#include "materials/law.hpp"
+#include "materials/number.hpp"
+
+#ifndef NSFRAME_MATERIALS_ELASTIC_PP_PARAMETERS
+#define NSFRAME_MATERIALS_ELASTIC_PP_PARAMETERS
+namespace nsframe {
+
+struct ElasticPP {
+  static constexpr const char* name = "ElasticPP";
+  double E = 0;     // [Pa]
+  double epsyP = 0; // yield strain in tension [-]
+  double epsyN = 0; // yield strain in compression, negative [-]; 0: -epsyP
+  double eps0 = 0;  // initial strain [-]
+
+  template <class T>
+  struct History {
+    T strain;          // [-]
+    T plastic_strain;  // [-]
+  };
+  double compression_yield() const { return epsyN < 0 ? epsyN : -epsyP; }
+  History<double> virgin() const { return {0, 0}; }
+  double initial_tangent() const { return E; }
+  double yield_strain() const { return std::min(epsyP, -compression_yield()); }
+  void check() const {
+    require_positive(E, "E");
+    require_positive(epsyP, "epsyP");
+    require(epsyN <= 0, "epsyN must be negative, or 0 for -epsyP");
+  }
+};
+
+}  // namespace nsframe
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace nsframe {
+namespace HWY_NAMESPACE {
+
+template <class T>
+Response<T, ElasticPP> respond(const ElasticPP& law, T strain, const ElasticPP::History<T>& committed) {
+  const T trial = T(law.E) * (strain - T(law.eps0) - committed.plastic_strain);
+  const T stress = max(T(law.E * law.compression_yield()), min(T(law.E * law.epsyP), trial));
+  const T plastic_strain = committed.plastic_strain + (trial - stress) / T(law.E);
+  return {stress, select(stress == trial, T(law.E), T(0.0)), {strain, plastic_strain}};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace nsframe
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,35 @@
+// What to compute and what to keep: options of the time history and of the output, with their defaults.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace nsframe {
+
+enum class ContactSolverKind { active_set, gauss_seidel };
+
+struct AnalysisOptions {
+  std::string scheme = "moreau-jean";  // name in the registry of schemes (integrators/schemes.hpp)
+  double dt = 1e-3;                    // [s]
+  double duration = 0;                 // [s]; 0: the length of the longest motion
+  double theta = 1.0;                  // [1/2, 1]; the paper uses 1
+  double gamma = 1.5;                  // activation: a pair takes part where g + gamma dt g' < 0; the paper uses 3/2
+  double newton_tolerance = 1e-9;      // residual relative to the largest force of the step
+  int max_newton = 30;
+  int max_halvings = 10;               // of a step whose Newton iterations fail
+  ContactSolverKind contact_solver = ContactSolverKind::active_set;
+  double contact_tolerance = 1e-12;    // complementarity error relative to the approach velocity
+  int max_contact_sweeps = 100000;     // Gauss-Seidel only
+  int threads = 1;
+};
+
+struct OutputOptions {
+  double frames = 0;                   // [Hz] of ParaView frames; 0: none
+  double history_rate = 0;             // [Hz] of histories; 0: every step
+  // histories to keep: "nodes", "contacts", "elements", "sections", "energy", "ground"
+  std::vector<std::string> history;
+  std::vector<std::string> nodes;      // "structure.node" to keep; empty: all
+  double amplification = 1;            // of the displacements stored in the frames (Warp By Vector scales further)
+};
+
+}  // namespace nsframe

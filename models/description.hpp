@@ -1,0 +1,177 @@
+// What a scene says, as plain data in SI units, before any numbering: the scene reader fills it, parametric
+// buildings (story_frame.hpp) fill it, C++ users may fill it, and build_model() turns it into a Model.
+// Every item knows where it was read, so that build_model() can report errors by place.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.hpp"
+#include "base/types.hpp"
+#include "elements/sections.hpp"
+#include "materials/uniaxial.hpp"
+
+namespace nsframe {
+
+struct MaterialDescription {
+  std::string name;
+  Location at;
+  UniaxialLaw law;
+};
+
+struct NodeDescription {
+  std::string id;
+  Location at;
+  Vector3 position = Vector3::Zero();  // [m]
+};
+
+// Fixes DOFs of a node; order ux, uy, uz, rx, ry, rz.
+struct SupportDescription {
+  Reference node;
+  std::array<bool, 6> fixed{};
+};
+
+// Lumped mass with rotational inertia about the global axes through the node.
+struct MassDescription {
+  Reference node;
+  Vector3 mass = Vector3::Zero();     // along x, y, z [kg]
+  Vector3 inertia = Vector3::Zero();  // about x, y, z [kg m2]
+};
+
+enum class ElementKind { elastic_beam, displacement_beam, force_beam, truss, cable };
+enum class Geometry { linear, p_delta };
+
+// A member between two nodes.
+struct ElementDescription {
+  std::string id;
+  Location at;
+  ElementKind kind = ElementKind::elastic_beam;
+  Reference node_i, node_j;
+  Reference section;                   // beams only
+  Reference material;                  // truss and cable only
+  double area = 0;                     // [m2], truss and cable only
+  double pretension = 0;               // [N], truss and cable only, positive in tension
+  int points = 5;                      // Gauss-Lobatto points of a fiber beam, 3 to 10
+  Geometry geometry = Geometry::linear;
+  std::optional<Vector3> orientation;  // a vector in the local x-z plane (OpenSees' vecxz); default: see beam_axes()
+};
+
+// Springs and dashpots between two nodes at (nominally) one place, or between a node and the ground (node_j empty),
+// in six directions along `axes`. A direction with a law uses it (force against displacement) instead of `stiffness`.
+struct SpringDescription {
+  std::string id;
+  Location at;
+  Reference node_i;
+  std::optional<Reference> node_j;
+  Vector6 stiffness = Vector6::Zero();                    // [N/m], [N m/rad]
+  Vector6 damping = Vector6::Zero();                      // [N s/m], [N m s/rad]
+  std::array<std::optional<Reference>, 6> law;            // material: "stress" is force [N, N m], "strain" displacement
+};
+
+enum class ConstraintKind {
+  rigid_body,  // all six DOFs of the slaves follow the master (rigid slab, rigid link)
+  diaphragm,   // ux, uy, rz of the slaves follow the master; normal is the global z axis
+  equal_dof    // the listed DOFs of the slaves equal those of the master
+};
+
+struct ConstraintDescription {
+  Location at;
+  ConstraintKind kind = ConstraintKind::rigid_body;
+  Reference master;
+  std::vector<Reference> slaves;
+  std::array<bool, 6> dofs{true, true, true, true, true, true};  // equal_dof only
+};
+
+// A slab as seen by contact and by the output: its corner nodes in order around it. How it carries load is said by
+// elements or constraints.
+struct SlabDescription {
+  std::string id;
+  Location at;
+  std::vector<Reference> corners;
+  std::optional<Reference> center;
+  double thickness = 0.12;  // [m], for drawing only
+  bool rigid = false;       // impacts act on the whole slab, not on the corner's share of it
+};
+
+enum class DampingKind { none, modal, rayleigh };
+
+struct DampingDescription {
+  Location at;
+  DampingKind kind = DampingKind::none;
+  // modal: damping ratios of the first modes in order, or by name: L1 (x), T1 (y), R1 (about z), V1 (z)
+  std::vector<double> ratios;
+  std::vector<std::pair<Reference, double>> named_ratios;
+  // rayleigh: C = mass_factor M + stiffness_factor K, from two frequencies and ratios when `frequencies` is set
+  double mass_factor = 0;                            // [1/s]
+  double stiffness_factor = 0;                       // [s]
+  std::optional<std::array<double, 2>> frequencies;  // [Hz]
+  std::array<double, 2> frequency_ratios{};          // [-]
+};
+
+// Initial value of one DOF (0..5) relative to the base.
+struct InitialDescription {
+  Reference node;
+  int dof = 0;
+  double value = 0;  // [m, rad] or [m/s, rad/s]
+};
+
+struct StructureDescription {
+  std::string name;
+  Location at;
+  bool may_move_freely = false;  // a rigid-body motion without stiffness is intended (a ball, a rolling mass)
+  std::vector<NodeDescription> nodes;
+  std::vector<SupportDescription> supports;
+  std::vector<MassDescription> masses;
+  std::vector<ElementDescription> elements;
+  std::vector<SpringDescription> springs;
+  std::vector<ConstraintDescription> constraints;
+  std::vector<SlabDescription> slabs;
+  DampingDescription damping;
+  std::vector<InitialDescription> initial_displacements, initial_velocities;
+};
+
+enum class ContactKind {
+  nodes,        // one node against another node, or against a fixed wall (b empty)
+  slab_corners  // facing corners of the slabs of two structures, floor by floor: the paper's eight-DOF contact
+};
+
+struct ContactDescription {
+  Location at;
+  std::string name;                     // prefix of the pairs' names; default from the two sides
+  ContactKind kind = ContactKind::slab_corners;
+  Reference a;                          // slab_corners: a structure; nodes: "structure.node"
+  std::optional<Reference> b;
+  Vector3 direction = Vector3::UnitX(); // from a to b, unit vector
+  std::vector<double> gap;              // [m]; one value, or (slab_corners) one a corner in the order of rising y (or x)
+                                        // (the same on all floors), or one a corner and floor, lowest floor first;
+                                        // empty: from the coordinates
+  double restitution = 0.6;
+};
+
+// Base acceleration in one direction, piecewise linear between samples; the first sample is at t = 0.
+struct MotionDescription {
+  Location at;
+  std::string source;                 // file it was read from
+  double dt = 0;                      // [s]
+  std::vector<double> acceleration;   // [m/s2], already scaled
+  Vector3 direction = Vector3::UnitX();
+};
+
+struct GravityDescription {
+  Vector3 acceleration = Vector3::Zero();  // [m/s2]; zero: no gravity
+  bool statically_first = true;            // false: acts suddenly at t = 0 (a dropped body)
+};
+
+// The mechanical model as described; analysis and output options are apart (analysis.hpp).
+struct ModelDescription {
+  std::vector<MaterialDescription> materials;
+  std::vector<SectionDescription> sections;
+  std::vector<StructureDescription> structures;
+  std::vector<ContactDescription> contacts;
+  std::vector<MotionDescription> motions;
+  GravityDescription gravity;
+};
+
+}  // namespace nsframe

@@ -1,0 +1,69 @@
+// The mechanical model: built once by build_model(), then constant. What changes is in State.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/types.hpp"
+#include "elements/element_group.hpp"
+#include "models/contacts.hpp"
+#include "models/description.hpp"
+#include "models/dof_map.hpp"
+#include "models/ground_motion.hpp"
+
+namespace nsframe {
+
+struct Nodes {
+  std::vector<std::string> id;        // "structure.node"
+  std::vector<Vector3> position;      // [m]
+  std::vector<int> structure;         // index into Model::structures
+  int size() const { return static_cast<int>(id.size()); }
+};
+
+// A slab, for contact and drawing.
+struct Slab {
+  std::string id;
+  int structure = 0;
+  std::vector<int> corners;           // nodes, in order around the slab
+  int center = -1;                    // node, or -1
+  double thickness = 0.12;            // [m]
+  bool rigid = false;
+};
+
+// A connected structure: its free DOFs are contiguous, and no stiffness or damping couples it to another one.
+struct Structure {
+  std::string name;
+  int first_dof = 0, last_dof = 0;    // [first, last) free DOFs
+  int first_node = 0, last_node = 0;  // [first, last) nodes
+  DampingDescription damping;
+  bool may_move_freely = false;
+};
+
+struct Model {
+  Nodes nodes;
+  DofMap dofs;
+  std::vector<Structure> structures;
+  std::vector<Slab> slabs;
+  std::vector<std::unique_ptr<const ElementGroup>> groups;
+  std::vector<int> history_begin;     // of each group in State::history, and its total size at the end
+  SparseMatrix mass;                  // M, free DOFs [kg, kg m2]; diagonal unless constraints couple DOFs
+  SparseMatrix viscous_damping;       // dashpots only [N s/m]
+  VectorX nodal_mass;                 // full DOFs, before constraints [kg, kg m2]
+  VectorX gravity_load;               // free DOFs [N]
+  bool gravity_statically_first = true;
+  std::vector<GroundMotion> motions;
+  std::vector<VectorX> motion_load;   // free DOFs, force of a unit acceleration: -T' M T iota [kg], one a motion
+  Contacts contacts;
+  VectorX initial_displacement, initial_velocity;  // free DOFs
+
+  int history_size() const { return history_begin.back(); }
+  double total_mass() const;          // of all nodes along x [kg]
+};
+
+// Turns a description into a model. Every error of the description is reported to `diagnostics` with its place
+// (missing references, duplicate ids, zero-length elements, unconnected or unstable parts, ...); throws InputError
+// with all of them.
+Model build_model(const ModelDescription& description, Diagnostics& diagnostics);
+
+}  // namespace nsframe

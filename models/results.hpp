@@ -1,0 +1,112 @@
+// What a time history reports, step by step and at its end; integrators produce it, output writes it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/model.hpp"
+#include "models/state.hpp"
+
+namespace nsframe {
+
+// Work and energy since the start of the time history, relative to the moving base [J].
+//   kinetic + strain + damping + contact + numerical - input - (start) = balance error
+struct Energy {
+  double kinetic = 0;          // 1/2 v' M v
+  double strain = 0;           // work of the internal forces since the start, recoverable or not
+  double damping = 0;          // dissipated by C
+  double contact = 0;          // taken out by impacts
+  double numerical = 0;        // dissipated by the scheme itself (theta > 1/2)
+  double input = 0;            // work of the loads
+  double initial = 0;          // kinetic energy at the start
+  double balance_error() const { return kinetic + strain + damping + contact + numerical - input - initial; }
+};
+
+struct Impact {
+  double time = 0;             // end of the step [s]
+  int pair = 0;
+  double approach_velocity = 0;  // -(gap rate before), positive when closing [m/s]
+  double impulse = 0;          // [N s]
+  double rate_before = 0, rate_after = 0;  // gap rates [m/s]
+};
+
+// Impacts of one pair closer than 20 ms, or sustained contact, merged: what a test records as one impact.
+struct Pounding {
+  double time = 0;             // of its first impact [s]
+  double duration = 0;         // [s]
+  int pair = 0;
+  double approach_velocity = 0;  // of its first impact [m/s]
+  double impulse = 0;          // summed [N s]
+  double effective_restitution = 0;  // separation rate after the last over approach velocity before the first [-]
+  int impacts = 0;
+};
+
+struct StepReport {
+  int step = 0;                // of the user's dt, from 1
+  int substeps = 1;            // more than 1 where Newton failed and the step was halved
+  int newton_iterations = 0;
+  int active_pairs = 0;
+  double residual = 0;         // relative, at the end
+  double complementarity_error = 0;
+};
+
+// Watches a time history. All calls come from the thread that runs it.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  virtual void start(const Model& model, const State& state) { (void)model; (void)state; }
+  // After every accepted step of the user's dt; `before` is the state at its start.
+  virtual void step(const State& before, const State& after, const StepReport& report, const Energy& energy) {
+    (void)before; (void)after; (void)report; (void)energy;
+  }
+  virtual void impact(const Impact& impact) { (void)impact; }
+  // Called also when the run stops early.
+  virtual void finish() {}
+};
+
+// Effective damping and frequency of one mode under a scheme with a given step.
+struct ModeNumerics {
+  std::string structure;
+  std::string mode;                    // name by direction: L1, T1, R1, V1, ...
+  double frequency = 0;                // [Hz]
+  double damping_asked = 0;            // [-]
+  double damping_effective = 0;        // asked plus numerical [-]
+  double frequency_effective = 0;      // [Hz]
+};
+
+struct Peak {
+  std::string node;
+  Vector3 displacement = Vector3::Zero();  // largest absolute values along x, y, z relative to the base [m]
+  Vector3 velocity = Vector3::Zero();      // [m/s]
+  Vector3 acceleration = Vector3::Zero();  // absolute acceleration, as velocity difference over dt [m/s2]
+  double twist = 0;                        // largest |rz| [rad]
+};
+
+struct Timing {
+  double setup = 0, step_loop = 0, output = 0;  // [s]
+};
+
+struct Summary {
+  std::string title, scheme;
+  double dt = 0, duration = 0, theta = 0, gamma = 0;
+  int steps = 0, dofs = 0, nodes = 0, elements = 0, fibers = 0;
+  std::vector<std::string> structures;
+  std::vector<std::vector<double>> frequencies;   // Hz, a list a structure
+  std::vector<ModeNumerics> modes;
+  std::vector<std::string> pairs;                 // names, in the order of Impact::pair
+  std::vector<Impact> impacts;
+  std::vector<Pounding> poundings;
+  std::vector<Peak> peaks;
+  Energy energy;
+  double worst_balance_error = 0;                 // over the run, relative to the largest energy [-]
+  double max_penetration = 0;                     // [m]
+  double max_complementarity_error = 0;
+  long newton_iterations = 0, halved_steps = 0, factorizations = 0;
+  Timing timing;
+  std::vector<std::string> warnings;              // plain sentences
+  bool completed = true;
+  std::string stop_reason;                        // when not completed
+  double end_time = 0;                            // [s]
+};
+
+}  // namespace nsframe

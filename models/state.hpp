@@ -1,0 +1,17 @@
+// All that changes in time: plain arrays, copyable and comparable, no pointers. A restart file is a State.
+#pragma once
+
+#include "base/types.hpp"
+
+namespace nsframe {
+
+struct State {
+  double time = 0;            // [s]
+  VectorX displacement;       // free DOFs, relative to the base [m, rad]
+  VectorX velocity;           // [m/s, rad/s]
+  VectorX internal_force;     // P(q) without damping, free DOFs [N, N m]
+  VectorX history;            // of all nonlinear elements; layout: Model::history_begin, one block a group
+  VectorX impulse;            // of the contact pairs over the last step [N s]
+};
+
+}  // namespace nsframe
