@@ -45,6 +45,8 @@ ModelDescription cantilever(ElementKind kind, const UniaxialLaw& law, Geometry g
   s.name = "column";
   for (int i = 0; i <= elements; ++i) s.nodes.push_back({std::to_string(i), {}, Vector3(0, 0, height * i / elements)});
   s.supports.push_back({{"0", {}}, {true, true, true, true, true, true}});
+  // in the plane: under P-Delta the yielding column would leave it by weak-axis buckling, triggered by rounding
+  for (int i = 1; i <= elements; ++i) s.supports.push_back({{std::to_string(i), {}}, {false, true, false, true, false, true}});
   for (int i = 0; i < elements; ++i) {
     ElementDescription e;
     e.id = "e" + std::to_string(i);
@@ -65,28 +67,17 @@ class DisplacementControl {
   DisplacementControl(System& system, VectorX dead, int dof) : system_(system), dead_(std::move(dead)), dof_(dof) {}
 
   double factor = 0;
-  // In halves where Newton flips between the two slopes of bilinear fibers.
   void reach(double target, State& state) {
-    const double start = state.displacement[dof_], start_factor = factor;
-    if (try_to_reach(target, state)) return;
-    REQUIRE_MESSAGE(std::abs(target - start) > 1e-6, "displacement control did not converge at " << target);
-    factor = start_factor;
-    reach(0.5 * (start + target), state);
-    reach(target, state);
-  }
-
- private:
-  bool try_to_reach(double target, State& state) {
     State trial = state;
     system_.assembler.start_step(state.history, trial.history);
     const VectorX pattern = VectorX::Unit(dead_.size(), dof_);
-    for (int i = 0; i < 30; ++i) {
+    for (int i = 0; i < 100; ++i) {
       system_.assembler.internal_force(trial.displacement, state.history, trial.history, trial.internal_force);
       const VectorX residual = dead_ + factor * pattern - trial.internal_force;
       const double miss = target - trial.displacement[dof_];
       if (residual.norm() < 1e-6 && std::abs(miss) < 1e-15) {
         std::swap(state, trial);
-        return true;
+        return;
       }
       const Eigen::PartialPivLU<MatrixX> K{MatrixX(system_.assembler.tangent())};
       const VectorX by_residual = K.solve(residual), by_pattern = K.solve(pattern);
@@ -94,9 +85,10 @@ class DisplacementControl {
       factor += change;
       trial.displacement += by_residual + change * by_pattern;
     }
-    return false;
+    FAIL("displacement control did not converge at " << target);
   }
 
+ private:
   System& system_;
   VectorX dead_;
   int dof_;
@@ -110,8 +102,8 @@ void compare(const std::string& kind_name, ElementKind kind, int elements, const
   Diagnostics diagnostics;
   const Model model = build_model(cantilever(kind, law, geometry, elements), diagnostics);
   System system(model, 1);
-  const int tip = model.dofs.size() - 6;  // ux of the last node
-  const VectorX axial = -200e3 * VectorX::Unit(model.dofs.size(), tip + 2);
+  const int tip = model.dofs.size() - 3;  // ux of the last node
+  const VectorX axial = -200e3 * VectorX::Unit(model.dofs.size(), tip + 1);
   State state = virgin_state(system);
   for (int i = 1; i <= 10; ++i) solve_static(system, 0.1 * i * axial, StaticOptions{}, state);
   DisplacementControl control(system, axial, tip);
@@ -122,7 +114,7 @@ void compare(const std::string& kind_name, ElementKind kind, int elements, const
     peak_force = std::max(peak_force, std::abs(row[1]));
     peak_sag = std::max(peak_sag, std::abs(row[2]));
     force_error = std::max(force_error, std::abs(control.factor - row[1]));
-    sag_error = std::max(sag_error, std::abs(state.displacement[tip + 2] - row[2]));
+    sag_error = std::max(sag_error, std::abs(state.displacement[tip + 1] - row[2]));
   }
   CHECK(force_error < 1e-6 * peak_force);
   CHECK(sag_error < 1e-6 * peak_sag);
