@@ -20,9 +20,9 @@ const T& at_story(const std::vector<T>& values, int story) {
 
 // One column line, or the centre of a floor.
 struct PlanPoint {
-  int number = 0;            // i of the node id
-  double x = 0, y = 0;       // [m] from the origin
-  double tributary_area = 0; // [m2]; 0 at a centre without column
+  int number = 0;             // i of the node id
+  double x = 0, y = 0;        // [m] from the origin
+  double tributary_area = 0;  // [m2]; 0 at a centre without column
   bool column = true;
 };
 
@@ -162,7 +162,7 @@ class Expansion {
       ElementDescription& column =
           add_member(frame_.columns, story, node(story - 1, point.number), node(story, point.number));
       // The default has local y along global X; with the local z against X, local y is along Y.
-      if (frame_.columns.depth == PlanAxis::y) column.orientation = -Vector3::UnitX();
+      if (frame_.columns.depth == PlanAxis::y) column.orientation = Vector3(-1, 0, 0);
     }
   }
 
@@ -192,7 +192,8 @@ class Expansion {
     for (const PlanPoint& point : points_)
       if (point.number != centre_number) around.push_back(node(story, point.number));
     if (frame_.slab.kind == SlabKind::links) {
-      for (const Reference& corner : around) add_element(ElementKind::elastic_beam, centre, corner).section = frame_.slab.section;
+      for (const Reference& corner : around)
+        add_element(ElementKind::elastic_beam, centre, corner).section = frame_.slab.section;
       return;
     }
     const ConstraintKind kind =
@@ -213,7 +214,8 @@ class Expansion {
     };
     for (const BracePlane plane : braces.planes) {
       const bool along_y = plane == BracePlane::x_low || plane == BracePlane::x_high;
-      const int ix = plane == BracePlane::x_high ? x_.count() - 1 : 0, iy = plane == BracePlane::y_high ? y_.count() - 1 : 0;
+      const int ix = plane == BracePlane::x_high ? x_.count() - 1 : 0,
+                iy = plane == BracePlane::y_high ? y_.count() - 1 : 0;
       if (along_y)
         for (int bay = 0; bay + 1 < y_.count(); ++bay) cross(grid(ix, bay), grid(ix, bay + 1));
       else
@@ -228,8 +230,9 @@ class Expansion {
     for (const PlanPoint& point : points_) {
       MassDescription mass;
       mass.node = node(story, point.number);
-      const double horizontal =
-          point.number == centre_number ? total * centre : point.number < centre_number ? total * (1 - centre) / 4 : 0;
+      const double horizontal = point.number == centre_number  ? total * centre
+                                : point.number < centre_number ? total * (1 - centre) / 4
+                                                               : 0;
       mass.mass = Vector3(horizontal, horizontal, total * point.tributary_area / area);
       if (point.number == centre_number && !frame_.mass.centre_inertia.empty())
         mass.inertia.z() = at_story(frame_.mass.centre_inertia, story);
@@ -248,16 +251,20 @@ class Expansion {
 
 void check_list(std::vector<std::string>& faults, std::string_view what, std::size_t size, int stories) {
   if (size > 1 && size != static_cast<std::size_t>(stories))
-    faults.push_back(fmt::format("{} has {} values, must have one, or one for each of the {} stories", what, size, stories));
+    faults.push_back(
+        fmt::format("{} has {} values, must have one, or one for each of the {} stories", what, size, stories));
 }
 
 }  // namespace
 
 ElementKind element_kind(BeamKind kind) {
   switch (kind) {
-    case BeamKind::displacement: return ElementKind::displacement_beam;
-    case BeamKind::force_based: return ElementKind::force_beam;
-    default: return ElementKind::elastic_beam;
+    case BeamKind::displacement:
+      return ElementKind::displacement_beam;
+    case BeamKind::force_based:
+      return ElementKind::force_beam;
+    default:
+      return ElementKind::elastic_beam;
   }
 }
 
@@ -269,7 +276,8 @@ std::vector<std::string> faults(const StoryFrame& frame) {
     const char name = axis == 0 ? 'x' : 'y';
     if (frame.plan[axis].empty()) out.push_back(fmt::format("plan has no length along {}", name));
     if (frame.plan[axis].size() > 1 && frame.bays[axis] != 1 && frame.bays[axis] != int(frame.plan[axis].size()))
-      out.push_back(fmt::format("plan has {} spans along {}, bays says {}", frame.plan[axis].size(), name, frame.bays[axis]));
+      out.push_back(
+          fmt::format("plan has {} spans along {}, bays says {}", frame.plan[axis].size(), name, frame.bays[axis]));
   }
   if (frame.height.empty()) out.push_back("height is missing");
   check_list(out, "height", frame.height.size(), frame.stories);

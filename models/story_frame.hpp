@@ -27,14 +27,14 @@ ElementKind element_kind(BarKind kind);
 struct FrameMembers {
   std::vector<Reference> section;  // one, or one a story
   BeamKind element = BeamKind::elastic;
-  int points = 5;                  // Gauss-Lobatto points of a fiber beam
+  int points = 5;  // Gauss-Lobatto points of a fiber beam
   Geometry geometry = Geometry::linear;
 };
 
 enum class PlanAxis { x, y };
 
 struct FrameColumns : FrameMembers {
-  PlanAxis depth = PlanAxis::x;    // direction of the section's depth (its local y)
+  PlanAxis depth = PlanAxis::x;  // direction of the section's depth (its local y)
 };
 
 enum class SlabKind { links, rigid, diaphragm };
@@ -42,8 +42,8 @@ enum class SlabKind { links, rigid, diaphragm };
 // How a floor is tied to its centre: by elastic links to the column lines, as one rigid body, or in its plane only.
 struct FrameSlab {
   SlabKind kind = SlabKind::rigid;
-  Reference section;               // links only
-  double thickness = 0.12;         // [m], for drawing only
+  Reference section;        // links only
+  double thickness = 0.12;  // [m], for drawing only
 };
 
 enum class BracePlane { x_low, x_high, y_low, y_high };
@@ -53,8 +53,8 @@ struct FrameBraces {
   std::vector<BracePlane> planes;
   BarKind kind = BarKind::truss;
   Reference material;
-  std::vector<double> area;        // [m2], one, or one a story
-  double pretension = 0;           // [N]
+  std::vector<double> area;  // [m2], one, or one a story
+  double pretension = 0;     // [N]
 };
 
 enum class BaseKind { fixed, pinned, spring };
@@ -62,14 +62,14 @@ enum class BaseKind { fixed, pinned, spring };
 // spring: translations and the rotation about z are fixed, the rotations about x and y held by springs.
 struct FrameBase {
   BaseKind kind = BaseKind::fixed;
-  double stiffness = 0;            // [N m/rad]
+  double stiffness = 0;  // [N m/rad]
 };
 
 // A uniform rectangular plate has the same inertia about all axes of its plan as a third of its mass shared by its
 // four corners and two thirds at its centre; vertically all is carried by the column lines, by tributary area.
 struct FrameMass {
-  std::vector<double> floor;       // [kg], one, or one a story
-  double centre_share = 2.0 / 3;   // of the horizontal mass; the outer corners have the rest
+  std::vector<double> floor;           // [kg], one, or one a story
+  double centre_share = 2.0 / 3;       // of the horizontal mass; the outer corners have the rest
   std::vector<double> centre_inertia;  // [kg m2], extra, about z at the centre; none, one, or one a story
 };
 
@@ -77,10 +77,10 @@ struct StoryFrame {
   std::string name;
   Location at;
   int stories = 1;
-  std::vector<double> height{3.0};             // [m], one, or one a story
-  std::array<std::vector<double>, 2> plan;     // [m] spans along x and y; one value: a length shared by `bays`
+  std::vector<double> height{3.0};          // [m], one, or one a story
+  std::array<std::vector<double>, 2> plan;  // [m] spans along x and y; one value: a length shared by `bays`
   std::array<int, 2> bays{1, 1};
-  Vector3 origin = Vector3::Zero();            // [m], of the plan's corner (-x, -y) at the base
+  Vector3 origin = Vector3::Zero();  // [m], of the plan's corner (-x, -y) at the base
   FrameColumns columns;
   std::optional<FrameMembers> beams;
   FrameSlab slab;
@@ -90,7 +90,8 @@ struct StoryFrame {
   DampingDescription damping;
 };
 
-// Names what is wrong with the lists of `frame` (a list of neither one nor `stories` values, no plan); empty if nothing.
+// Names what is wrong with the lists of `frame` (a list of neither one nor `stories` values, no plan); empty if
+// nothing.
 std::vector<std::string> faults(const StoryFrame& frame);
 
 // Throws InputError with the first of faults(frame), if any.

@@ -89,17 +89,20 @@ void check(TableReader& table, const StoryFrameTable& frame) {
 void check(TableReader& table, const ContactTable& contact) {
   if (!contact.between.empty() && (contact.a || contact.b))
     return table.error("between", "a contact has either between, or a and b");
-  if (contact.a.has_value() != contact.b.has_value()) return table.error(contact.a ? "a" : "b", "a contact needs a and b");
+  if (contact.a.has_value() != contact.b.has_value())
+    return table.error(contact.a ? "a" : "b", "a contact needs a and b");
   if (!contact.a && contact.between.size() != 2)
     return table.error("between", "a contact needs two sides: between = [first, second]");
   const auto [a, b] = sides(contact);
   const bool nodes = contact_kind(contact) == ContactKind::nodes;
   if (a.name == "ground") return table.error("between", "the ground must be the second side of a contact");
-  if (!nodes && b.name == "ground") return table.error("kind", "contact with the ground is between a node and \"ground\"");
+  if (!nodes && b.name == "ground")
+    return table.error("kind", "contact with the ground is between a node and \"ground\"");
   for (const Reference& side : {a, b}) {
     if (side.name == "ground") continue;
     if (nodes && side.name.find('.') == std::string::npos)
-      table.error(contact.a ? "a" : "between", fmt::format("'{}' is not a node, written as \"structure.node\"", side.name));
+      table.error(contact.a ? "a" : "between",
+                  fmt::format("'{}' is not a node, written as \"structure.node\"", side.name));
   }
   if (b.name == "ground" && contact.gap.values.empty()) table.error("between", "contact with the ground needs a gap");
 }

@@ -58,7 +58,8 @@ void describe(const PatchSection& section, const std::vector<MaterialTable>&, Se
       high = high.cwiseMax(point);
     }
   }
-  for (const FiberTable& fiber : section.fibers) fibers.fibers.push_back({fiber.y, fiber.z, fiber.area, fiber.material});
+  for (const FiberTable& fiber : section.fibers)
+    fibers.fibers.push_back({fiber.y, fiber.z, fiber.area, fiber.material});
   fibers.torsion_stiffness = section.GJ ? *section.GJ : section.G.value_or(0) * section.J.value_or(0);
   out.kind = std::move(fibers);
   if (!section.patches.empty()) out.outline = rectangle(low.x(), high.x(), low.y(), high.y());
@@ -73,7 +74,8 @@ std::optional<MotionDescription> describe(const MotionTable& motion, const std::
     double peak = 0;
     for (const double a : record->acceleration) peak = std::max(peak, std::abs(a));
     if (peak == 0) {
-      diagnostics.error(motion.file.at, "record '" + motion.file.name + "' is zero throughout and can't be scaled to a pga");
+      diagnostics.error(motion.file.at,
+                        "record '" + motion.file.name + "' is zero throughout and can't be scaled to a pga");
       return std::nullopt;
     }
     factor = *motion.pga / peak;

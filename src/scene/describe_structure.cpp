@@ -11,7 +11,9 @@ Vector3 vector3(const std::vector<double>& values) {
   return values.size() == 3 ? Vector3(values[0], values[1], values[2]) : Vector3::Zero();
 }
 
-Reference at_or_empty(const std::vector<Reference>& nodes, std::size_t i) { return i < nodes.size() ? nodes[i] : Reference{}; }
+Reference at_or_empty(const std::vector<Reference>& nodes, std::size_t i) {
+  return i < nodes.size() ? nodes[i] : Reference{};
+}
 
 ElementDescription describe(const BeamTable& beam, const ExplicitStructure& structure) {
   ElementDescription out;
@@ -23,7 +25,8 @@ ElementDescription describe(const BeamTable& beam, const ExplicitStructure& stru
   out.section = beam.section;
   out.points = beam.points.value_or(structure.points);
   out.geometry = beam.geometry.value_or(structure.geometry);
-  if (beam.orientation) out.orientation = Vector3((*beam.orientation)[0], (*beam.orientation)[1], (*beam.orientation)[2]);
+  if (beam.orientation)
+    out.orientation = Vector3((*beam.orientation)[0], (*beam.orientation)[1], (*beam.orientation)[2]);
   return out;
 }
 
@@ -150,8 +153,8 @@ StructureDescription describe(const ExplicitStructure& structure) {
   for (const SpringTable& spring : structure.springs) out.springs.push_back(describe(spring));
   describe_constraints(structure, out);
   for (const SlabTable& s : structure.slabs)
-    out.slabs.push_back({s.id.name, s.id.at, s.corners, s.center, s.thickness,
-                         s.rigid_contact.value_or(s.kind != SlabKind::links)});
+    out.slabs.push_back(
+        {s.id.name, s.id.at, s.corners, s.center, s.thickness, s.rigid_contact.value_or(s.kind != SlabKind::links)});
   out.damping = describe(structure.damping);
   out.initial_displacements = describe(structure.initial_displacement);
   out.initial_velocities = describe(structure.initial_velocity);
@@ -161,8 +164,13 @@ StructureDescription describe(const ExplicitStructure& structure) {
 namespace {
 
 BeamTable beam_table(const ElementDescription& element) {
-  BeamTable out{{element.id, element.at}, {element.node_i, element.node_j}, element.section, BeamKind::elastic,
-                element.points, element.geometry, std::nullopt};
+  BeamTable out{{element.id, element.at},
+                {element.node_i, element.node_j},
+                element.section,
+                BeamKind::elastic,
+                element.points,
+                element.geometry,
+                std::nullopt};
   if (element.kind == ElementKind::displacement_beam) out.element = BeamKind::displacement;
   if (element.kind == ElementKind::force_beam) out.element = BeamKind::force_based;
   if (element.orientation) {

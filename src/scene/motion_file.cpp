@@ -1,6 +1,6 @@
-// PEER AT2: some lines of text, one of them with the number of values and the step ("NPTS=  1559, DT=   .0200 SEC", or in
-// older files "1559  .0200  NPTS, DT"), then the values in units of g, row by row.
-// Plain text: one value a line, or time and acceleration; blank lines and lines that begin with # or % are skipped.
+// PEER AT2: some lines of text, one of them with the number of values and the step ("NPTS=  1559, DT=   .0200 SEC", or
+// in older files "1559  .0200  NPTS, DT"), then the values in units of g, row by row. Plain text: one value a line, or
+// time and acceleration; blank lines and lines that begin with # or % are skipped.
 #include "scene/motion_file.hpp"
 
 #include <fmt/format.h>
@@ -79,7 +79,8 @@ double number(const Token& token, int line) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   const std::string_view shown = token.text.substr(0, 40);
   if (code == std::errc{} && end != text.data() + text.size() && *end == ',')
-    throw RecordFault{line, token.column, fmt::format("'{}': write decimals with a point, and blanks between columns", shown)};
+    throw RecordFault{line, token.column,
+                      fmt::format("'{}': write decimals with a point, and blanks between columns", shown)};
   if (code != std::errc{} || end != text.data() + text.size())
     throw RecordFault{line, token.column, fmt::format("'{}' is not a number", shown)};
   if (!std::isfinite(value)) throw RecordFault{line, token.column, fmt::format("'{}' is not finite", shown)};
@@ -88,7 +89,8 @@ double number(const Token& token, int line) {
 
 std::string upper(std::string_view text) {
   std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return out;
 }
 
@@ -120,7 +122,8 @@ Header parse_header(const std::string& text, int line) {
     const auto leading = [&](std::size_t i) -> std::optional<double> {
       double value = 0;
       if (i >= parts.size()) return std::nullopt;
-      const auto [stop, code] = std::from_chars(parts[i].text.data(), parts[i].text.data() + parts[i].text.size(), value);
+      const auto [stop, code] =
+          std::from_chars(parts[i].text.data(), parts[i].text.data() + parts[i].text.size(), value);
       return code == std::errc{} ? std::optional(value) : std::nullopt;
     };
     count = leading(0);
@@ -128,7 +131,8 @@ Header parse_header(const std::string& text, int line) {
   }
   if (!count || !dt) throw RecordFault{line, 1, "the header line with NPTS has no number of values and step"};
   if (!(*count >= 1) || *count != std::floor(*count) || *count > double(max_record_samples))
-    throw RecordFault{line, 1, fmt::format("NPTS = {}, must be a whole number from 1 to {}", *count, max_record_samples)};
+    throw RecordFault{line, 1,
+                      fmt::format("NPTS = {}, must be a whole number from 1 to {}", *count, max_record_samples)};
   if (!(*dt > 0) || !std::isfinite(*dt)) throw RecordFault{line, 1, fmt::format("DT = {}, must be positive", *dt)};
   return {static_cast<std::size_t>(*count), *dt};
 }
@@ -161,21 +165,24 @@ Record read_at2(LineReader& lines) {
     }
   }
   if (record.acceleration.size() < header->count)
-    throw RecordFault{lines.number(), 1, fmt::format("ends after {} of NPTS = {} values", record.acceleration.size(), header->count)};
+    throw RecordFault{lines.number(), 1,
+                      fmt::format("ends after {} of NPTS = {} values", record.acceleration.size(), header->count)};
   return record;
 }
 
 // The step of equally spaced times from 0; times are printed with few digits, hence the hundredth of a step.
 double equal_step(const std::vector<double>& time, const std::vector<int>& line) {
   if (time.size() < 2) throw RecordFault{line.front(), 1, "one row of time and acceleration gives no step"};
-  if (time.front() != 0) throw RecordFault{line.front(), 1, fmt::format("the first time is {}, must be 0", time.front())};
+  if (time.front() != 0)
+    throw RecordFault{line.front(), 1, fmt::format("the first time is {}, must be 0", time.front())};
   const double dt = time.back() / static_cast<double>(time.size() - 1);
   const double first_step = time[1];
   for (std::size_t i = 1; i < time.size(); ++i) {
     const double step = time[i] - time[i - 1];
     if (!(step > 0)) throw RecordFault{line[i], 1, fmt::format("time {} is not after {}", time[i], time[i - 1])};
     if (std::abs(step - first_step) > 0.02 * first_step)
-      throw RecordFault{line[i], 1, fmt::format("the step to time {} is {}, not {} as before", time[i], step, first_step)};
+      throw RecordFault{line[i], 1,
+                        fmt::format("the step to time {} is {}, not {} as before", time[i], step, first_step)};
   }
   return dt;
 }
@@ -190,7 +197,9 @@ Record read_text(LineReader& lines, const std::optional<double>& dt) {
     if (row.empty() || row.front().text.front() == '#' || row.front().text.front() == '%') continue;
     if (columns == 0) columns = row.size();
     if (row.size() != columns || columns > 2)
-      throw RecordFault{lines.number(), 1, fmt::format("{} columns, must be {}", row.size(), columns > 2 ? "1 or 2" : std::to_string(columns) + " as before")};
+      throw RecordFault{lines.number(), 1,
+                        fmt::format("{} columns, must be {}", row.size(),
+                                    columns > 2 ? "1 or 2" : std::to_string(columns) + " as before")};
     if (columns == 2) {
       time.push_back(number(row[0], lines.number()));
       line_of_time.push_back(lines.number());
@@ -234,12 +243,15 @@ std::optional<Record> read_record(const MotionTable& motion, const std::filesyst
   };
   const bool at2 = is_at2(path);
   if (at2 && motion.dt) return fail(fmt::format("'{}' says its own step, dt must not be given", motion.file.name));
-  if (at2 && motion.unit == MotionUnit::metres) return fail(fmt::format("'{}' is an AT2 record, in units of g", motion.file.name));
-  if (!at2 && !motion.unit) return fail(fmt::format("'{}' is plain text, its unit must be given (\"g\" or \"m/s2\")", motion.file.name));
+  if (at2 && motion.unit == MotionUnit::metres)
+    return fail(fmt::format("'{}' is an AT2 record, in units of g", motion.file.name));
+  if (!at2 && !motion.unit)
+    return fail(fmt::format("'{}' is plain text, its unit must be given (\"g\" or \"m/s2\")", motion.file.name));
   try {
     LineReader lines(stream);
     Record record = at2 ? read_at2(lines) : read_text(lines, motion.dt);
-    if (record.dt == 0 && !motion.dt) return fail(fmt::format("'{}' has one column, its step dt must be given", motion.file.name));
+    if (record.dt == 0 && !motion.dt)
+      return fail(fmt::format("'{}' has one column, its step dt must be given", motion.file.name));
     if (record.dt == 0) record.dt = *motion.dt;
     if (at2 || motion.unit == MotionUnit::g)
       for (double& a : record.acceleration) a *= parse_quantity("1 g").value;

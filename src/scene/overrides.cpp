@@ -83,7 +83,8 @@ class Override {
   bool may_create(const toml::table& target, std::size_t depth) const {
     const auto is_named = [](std::string_view k) { return k == "material" || k == "section" || k == "structure"; };
     if (depth == 1 && is_named(path_[0])) {
-      diagnostics_.error(place_, fmt::format("there is no {} '{}'{}", path_[0], path_[1], did_you_mean(path_[1], keys(target))));
+      diagnostics_.error(
+          place_, fmt::format("there is no {} '{}'{}", path_[0], path_[1], did_you_mean(path_[1], keys(target))));
       return false;
     }
     if (depth == 0 && (path_[0] == "contact" || is_named(path_[0]))) {

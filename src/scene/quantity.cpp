@@ -93,7 +93,7 @@ const Unit& find_unit(std::string_view name) {
     if (unit.name == name) return unit;
     names.emplace_back(unit.name);
   }
-  throw QuantityError(fmt::format("unknown unit '{}'{}", name, did_you_mean(name, names)));
+  throw QuantityError(fmt::format(": unknown unit '{}'{}", name, did_you_mean(name, names)));
 }
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '*'; }
@@ -119,7 +119,7 @@ void take_factor(std::string_view& text, int sign, UnitProduct& product) {
   if (end > name_end) {
     const auto [stop, code] = std::from_chars(digits.data(), digits.data() + digits.size(), power);
     if (code != std::errc{} || stop != digits.data() + digits.size() || std::abs(power) > 12)
-      throw QuantityError(fmt::format("'{}' is not a power of a unit", text.substr(0, end)));
+      throw QuantityError(fmt::format(": '{}' is not a power of a unit", text.substr(0, end)));
   }
   power *= sign;
   const double factor = std::pow(unit.factor, std::abs(power)), divisor = std::pow(unit.divisor, std::abs(power));
@@ -146,16 +146,17 @@ Quantity parse_quantity(std::string_view text) {
   if (!text.empty() && text.front() == '+') text.remove_prefix(1);
   Quantity result;
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), result.value);
-  if (code == std::errc::result_out_of_range) throw QuantityError("the number is too large or too small");
-  if (code != std::errc{}) throw QuantityError("not a number with a unit");
-  if (!std::isfinite(result.value)) throw QuantityError("must be a finite number");
+  if (code == std::errc::result_out_of_range) throw QuantityError(": the number is too large or too small");
+  if (code != std::errc{}) throw QuantityError(": not a number with a unit");
+  if (!std::isfinite(result.value)) throw QuantityError(", must be a finite number");
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
-  if (!text.empty() && text.front() == ',') throw QuantityError("not a number with a unit (write decimals with a point)");
+  if (!text.empty() && text.front() == ',')
+    throw QuantityError(": not a number with a unit (write decimals with a point)");
   UnitProduct unit;
   int sign = 1;
   for (text = trim(text); !text.empty(); text = trim(text)) {
     if (text.front() == '/') {
-      if (sign < 0) throw QuantityError("two '/' in a row");
+      if (sign < 0) throw QuantityError(": two '/' in a row");
       sign = -1;
       text.remove_prefix(1);
       continue;
@@ -163,10 +164,10 @@ Quantity parse_quantity(std::string_view text) {
     take_factor(text, sign, unit);
     sign = 1;
   }
-  if (sign < 0) throw QuantityError("the unit ends with '/'");
+  if (sign < 0) throw QuantityError(": the unit ends with '/'");
   result.value = result.value * unit.factor / unit.divisor;
   result.dimension = unit.dimension;
-  if (!std::isfinite(result.value)) throw QuantityError("must be a finite number");
+  if (!std::isfinite(result.value)) throw QuantityError(", must be a finite number");
   return result;
 }
 
@@ -174,9 +175,10 @@ double parse_quantity(std::string_view text, const Dimension& wanted) {
   const Quantity quantity = parse_quantity(text);
   if (quantity.dimension == wanted || is_angle_omitted(quantity.dimension, wanted)) return quantity.value;
   if (quantity.dimension == dimension::none)
-    throw QuantityError(fmt::format("has no unit; write {} in {}, or a bare number", dimension_name(wanted), si_unit(wanted)));
+    throw QuantityError(
+        fmt::format(" has no unit; write {} in {}, or a bare number", dimension_name(wanted), si_unit(wanted)));
   const std::string unit = si_unit(wanted);
-  throw QuantityError(fmt::format("is {}, must be {}{}", dimension_name(quantity.dimension), dimension_name(wanted),
+  throw QuantityError(fmt::format(" is {}, must be {}{}", dimension_name(quantity.dimension), dimension_name(wanted),
                                   unit.empty() ? "" : " (" + unit + ")"));
 }
 

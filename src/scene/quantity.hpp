@@ -43,7 +43,7 @@ struct Quantity {
   Dimension dimension;  // none for a bare number
 };
 
-// Not a quantity: what() says why, ready to stand behind `key = "text": `.
+// Not a quantity: what() says why, ready to stand right behind `key = "text"` (it begins with its own punctuation).
 struct QuantityError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

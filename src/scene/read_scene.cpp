@@ -60,7 +60,8 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   return scene;
 }
 
-Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides, Diagnostics& diagnostics) {
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                 Diagnostics& diagnostics) {
   return parse_scene(read_text(file, diagnostics), file.string(), file.parent_path(), overrides, diagnostics);
 }
 

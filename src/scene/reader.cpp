@@ -16,13 +16,19 @@ Location location(const toml::source_region& source) {
 
 std::string type_name(const toml::node& node) {
   switch (node.type()) {
-    case toml::node_type::table: return "a table";
-    case toml::node_type::array: return "a list";
-    case toml::node_type::string: return "a text";
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "a list";
+    case toml::node_type::string:
+      return "a text";
     case toml::node_type::integer:
-    case toml::node_type::floating_point: return "a number";
-    case toml::node_type::boolean: return "a boolean";
-    default: return "a date or time";
+    case toml::node_type::floating_point:
+      return "a number";
+    case toml::node_type::boolean:
+      return "a boolean";
+    default:
+      return "a date or time";
   }
 }
 
@@ -94,7 +100,8 @@ void Reader::read(const Value& value, const Field& field, double& out) {
   const toml::node* node = value.single();
   const std::string unit = si_unit(field.dimension);
   if (!node || !(node->is_number() || node->is_string()))
-    return wrong_type(value, field, unit.empty() ? "a number" : fmt::format("a number or a quantity as \"1 {}\"", unit));
+    return wrong_type(value, field,
+                      unit.empty() ? "a number" : fmt::format("a number or a quantity as \"1 {}\"", unit));
   std::string shown;
   double number = 0;
   if (node->is_string()) {
@@ -103,7 +110,7 @@ void Reader::read(const Value& value, const Field& field, double& out) {
     try {
       number = parse_quantity(text, field.dimension);
     } catch (const QuantityError& fault) {
-      return error(value.at, fmt::format("{}: {}", shown, fault.what()));
+      return error(value.at, shown + fault.what());
     }
   } else {
     number = *node->value<double>();
@@ -118,7 +125,8 @@ void Reader::read(const Value& value, const Field& field, int& out) {
   const toml::node* node = value.single();
   const auto number = node && node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
   if (!number) {
-    if (node && node->is_number()) return error(value.at, fmt::format("{} = {}, must be a whole number", field.key, *node->value<double>()));
+    if (node && node->is_number())
+      return error(value.at, fmt::format("{} = {}, must be a whole number", field.key, *node->value<double>()));
     return wrong_type(value, field, "a whole number");
   }
   constexpr Range representable{-2e9, 2e9};
@@ -191,7 +199,8 @@ void Reader::read(const Value& value, const Field& field, Direction& out) {
   read(value, field, vector);
   if (diagnostics_.messages().size() > errors) return;
   if (vector.norm() == 0) return error(value.at, fmt::format("{} has no length", field.key));
-  out.vector = vector.norm() == 1 ? vector : vector.normalized();
+  // A vector of unit length but for its rounding keeps its bits, so that written scenes read back the same.
+  out.vector = std::abs(vector.norm() - 1) < 1e-15 ? vector : vector.normalized();
 }
 
 void Reader::read(const Value& value, const Field& field, DofSet& out) {

@@ -35,7 +35,16 @@ struct Entry {
 };
 
 template <class T>
-concept HasNames = requires(T value) { names_of(value); };
+concept HasNames = requires(T value) {
+  names_of(value);
+};
+
+class TableReader;
+
+template <class T>
+concept IsTable = requires(TableReader& archive, T& table) {
+  visit(archive, table);
+};
 
 class Reader {
  public:
@@ -64,7 +73,7 @@ class Reader {
   template <class T, std::size_t n>
   void read(const Value& value, const Field& field, std::array<T, n>& out);
   template <class Table>
-    requires std::is_class_v<Table>
+  requires std::is_class_v<Table>
   void read(const Value& value, const Field& field, Table& out);
 
   void error(const Location& at, std::string message) { diagnostics_.error(at, std::move(message)); }
@@ -147,6 +156,10 @@ void Reader::read(const Value& value, const Field& field, std::vector<T>& out) {
     if constexpr (is_map(type)) return read_map(*node->as_table(), field, out);
   }
   if constexpr (is_named(type)) return wrong_type(value, field, "a table of tables");
+  if constexpr (IsTable<T>) {
+    const toml::node* node = value.single();
+    if (!node || !(node->is_array() || node->is_table())) return wrong_type(value, field, "a list of tables or rows");
+  }
   for (const Value& item : items(value)) read(item, field, out.emplace_back());
 }
 
@@ -181,7 +194,7 @@ std::optional<std::vector<Entry>> Reader::entries(const Value& value, const Fiel
 }
 
 template <class Table>
-  requires std::is_class_v<Table>
+requires std::is_class_v<Table>
 void Reader::read(const Value& value, const Field& field, Table& out) {
   auto found = entries<Table>(value, field);
   if (!found) return;

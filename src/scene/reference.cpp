@@ -28,8 +28,7 @@ std::string kind_of(const Field&, const RatioTable*) { return "list, or table by
 std::string kind_of(const Field& field, const GapList*) { return number_kind(field) + ", one or more"; }
 
 template <class Enum>
-  requires std::is_enum_v<Enum>
-std::string kind_of(const Field&, const Enum*) {
+requires std::is_enum_v<Enum> std::string kind_of(const Field&, const Enum*) {
   std::string out;
   for (const auto& [name, choice] : names_of(Enum{})) out += fmt::format("{}\"{}\"", out.empty() ? "" : ", ", name);
   return out;
@@ -89,7 +88,9 @@ constexpr std::string_view title_of(const FrameBraces*) { return "braces"; }
 constexpr std::string_view title_of(const FrameBase*) { return "base"; }
 
 template <class T>
-concept HasTitle = requires(const T* table) { title_of(table); };
+concept HasTitle = requires(const T* table) {
+  title_of(table);
+};
 
 std::string escaped(std::string_view text) {
   std::string out;
@@ -125,7 +126,8 @@ class Rows {
     std::string note;
     if (!row_keys(type).empty()) {
       note = "As a row: `[";
-      for (const std::string_view key : row_keys(type)) note += fmt::format("{}{}", note.back() == '[' ? "" : ", ", key);
+      for (const std::string_view key : row_keys(type))
+        note += fmt::format("{}{}", note.back() == '[' ? "" : ", ", key);
       note += "]`.";
     }
     if (is_map(type)) note += fmt::format(" As a map: `{{ {} = {} }}`.", row_keys(type)[0], row_keys(type)[1]);
@@ -171,8 +173,9 @@ Names and ids are texts or whole numbers; node and element ids are unique inside
 
 std::string scene_reference() {
   std::string out(introduction);
-  out += "\nTop level: `title`, `[material.NAME]`, `[section.NAME]`, `[structure.NAME]`, `[[contact]]`, `[gravity]`, "
-         "`[motion]` or `[[motion]]`, `[analysis]`, `[output]`.\n";
+  out +=
+      "\nTop level: `title`, `[material.NAME]`, `[section.NAME]`, `[structure.NAME]`, `[[contact]]`, `[gravity]`, "
+      "`[motion]` or `[[motion]]`, `[analysis]`, `[output]`.\n";
   out += chapter<Elastic>("[material.NAME], law = \"Elastic\"");
   out += chapter<ElasticPP>("[material.NAME], law = \"ElasticPP\"");
   out += chapter<Steel01>("[material.NAME], law = \"Steel01\"");
@@ -181,9 +184,10 @@ std::string scene_reference() {
   out += chapter<ConstantsSection>("[section.NAME] by constants");
   out += chapter<PatchSection>("[section.NAME] by fibers", "Either `GJ`, or `G` and `J`.");
   out += chapter<ExplicitStructure>("[structure.NAME], explicit");
-  out += chapter<StoryFrameTable>("[structure.NAME], model = \"story_frame\"",
-                                  "Nodes are called floor * 10 + i: i = 1 to 4 the outer corners (-x,-y), (+x,-y), "
-                                  "(+x,+y), (-x,+y), 5 the slab's centre, 6 and on the other column lines; floor 0 is the base.");
+  out += chapter<StoryFrameTable>(
+      "[structure.NAME], model = \"story_frame\"",
+      "Nodes are called floor * 10 + i: i = 1 to 4 the outer corners (-x,-y), (+x,-y), "
+      "(+x,+y), (-x,+y), 5 the slab's centre, 6 and on the other column lines; floor 0 is the base.");
   out += chapter<ContactTable>("[[contact]]");
   out += chapter<GravityTable>("[gravity]");
   out += chapter<MotionTable>("[motion]");

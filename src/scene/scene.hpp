@@ -40,7 +40,8 @@ struct Scene {
 // Throws InputError when the file can't be opened, is not TOML, or an override has no key. All other errors are only
 // collected, and the scene holds what could be read, so that build_model() can add its own errors to them; the caller
 // then calls diagnostics.throw_if_any().
-Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides, Diagnostics& diagnostics);
+Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides,
+                 Diagnostics& diagnostics);
 
 // The same from a text; `name` stands in the places of errors, files are relative to `directory`.
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& directory,

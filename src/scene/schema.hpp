@@ -35,11 +35,14 @@ constexpr std::string_view scalar_key(const Table*) {
 inline constexpr Range gauss_points{3, 10, false, false};
 inline constexpr Range count{1, 1e6, false, false};
 
-// --- materials --------------------------------------------------------------------------------------------------------
+// --- materials
+// --------------------------------------------------------------------------------------------------------
 
 template <class Archive>
 void visit(Archive& ar, Elastic& law) {
-  ar(required("E", "elastic modulus; of a spring's law: stiffness in N/m or N m/rad", dimension::stress, range::positive), law.E);
+  ar(required("E", "elastic modulus; of a spring's law: stiffness in N/m or N m/rad", dimension::stress,
+              range::positive),
+     law.E);
 }
 
 template <class Archive>
@@ -72,7 +75,8 @@ void visit(Archive& ar, Steel02& law) {
   ar(Field{"sigInit", "initial stress", dimension::stress}, law.sigInit);
 }
 
-// --- sections ---------------------------------------------------------------------------------------------------------
+// --- sections
+// ---------------------------------------------------------------------------------------------------------
 
 template <class Archive>
 void visit(Archive& ar, ShapeSection& s) {
@@ -84,8 +88,12 @@ void visit(Archive& ar, ShapeSection& s) {
   ar(Field{"fillets", "root fillets, one fiber each"}, s.fillets);
   ar(Field{"poisson", "Poisson's ratio, for G = E/(2(1 + poisson))", {}, {-1, 0.5, true, false}}, s.poisson);
   ar(Field{"G", "shear modulus, in place of Poisson's ratio", dimension::stress, range::positive}, s.G);
-  ar(Field{.key = "J", .text = "torsion constant", .dimension = dimension::fourth_power_of_length,
-           .range = range::positive, .default_text = "of the catalogue"}, s.J);
+  ar(Field{.key = "J",
+           .text = "torsion constant",
+           .dimension = dimension::fourth_power_of_length,
+           .range = range::positive,
+           .default_text = "of the catalogue"},
+     s.J);
 }
 
 template <class Archive>
@@ -98,7 +106,8 @@ void visit(Archive& ar, ConstantsSection& s) {
   ar(required("Iz", "second moment for bending in the local x-y plane", m4, range::positive), s.constants.Iz);
   ar(required("Iy", "second moment for bending in the local x-z plane", m4, range::positive), s.constants.Iy);
   ar(required("J", "torsion constant", m4, range::non_negative), s.constants.J);
-  ar(Field{"depth", "along local y, of the rectangle drawn; 0: none drawn", dimension::length, range::non_negative}, s.depth);
+  ar(Field{"depth", "along local y, of the rectangle drawn; 0: none drawn", dimension::length, range::non_negative},
+     s.depth);
   ar(Field{"width", "along local z, of the rectangle drawn", dimension::length, range::non_negative}, s.width);
 }
 
@@ -130,19 +139,26 @@ void visit(Archive& ar, PatchSection& s) {
   ar(Field{"J", "torsion constant", dimension::fourth_power_of_length, range::non_negative}, s.J);
 }
 
-// --- contact, loads ---------------------------------------------------------------------------------------------------
+// --- contact, loads
+// ---------------------------------------------------------------------------------------------------
 
 template <class Archive>
 void visit(Archive& ar, ContactTable& c) {
   ar(Field{"name", "prefix of the pairs' names"}, c.name);
-  ar(Field{.key = "kind", .text = "slab-corners: facing corners of two structures, floor by floor; nodes: one node "
-                                  "against another or the ground", .default_text = "by the names in `between`"}, c.kind);
+  ar(Field{.key = "kind",
+           .text = "slab-corners: facing corners of two structures, floor by floor; nodes: one node "
+                   "against another or the ground",
+           .default_text = "by the names in `between`"},
+     c.kind);
   ar(Field{"between", "two structures, or two nodes `structure.node`, or a node and \"ground\""}, c.between);
   ar(Field{"a", "one node, with `b` in place of `between`"}, c.a);
   ar(Field{"b", "the other node, or \"ground\""}, c.b);
   ar(Field{"direction", "from the first to the second"}, c.direction);
-  ar(Field{.key = "gap", .text = "one value; or one a corner by rising y (or x); or rows of these, one a floor from the lowest",
-           .dimension = dimension::length, .default_text = "from the coordinates"}, c.gap);
+  ar(Field{.key = "gap",
+           .text = "one value; or one a corner by rising y (or x); or rows of these, one a floor from the lowest",
+           .dimension = dimension::length,
+           .default_text = "from the coordinates"},
+     c.gap);
   ar(Field{"restitution", "Newton's e", {}, range::unit}, c.restitution);
 }
 
@@ -156,25 +172,35 @@ void visit(Archive& ar, GravityTable& g) {
 
 template <class Archive>
 void visit(Archive& ar, MotionTable& m) {
-  ar(required("file", "PEER AT2, or text with one column (give `dt`) or two (time, acceleration); relative to the scene"), m.file);
+  ar(required("file",
+              "PEER AT2, or text with one column (give `dt`) or two (time, acceleration); relative to the scene"),
+     m.file);
   ar(Field{"dt", "step of a one-column file", dimension::time, range::positive}, m.dt);
   ar(Field{.key = "unit", .text = "of the numbers in the file", .default_text = "AT2: \"g\"; text must say"}, m.unit);
-  ar(Field{.key = "pga", .text = "peak to scale the record to", .dimension = dimension::acceleration,
-           .range = range::positive, .default_text = "as recorded"}, m.pga);
+  ar(Field{.key = "pga",
+           .text = "peak to scale the record to",
+           .dimension = dimension::acceleration,
+           .range = range::positive,
+           .default_text = "as recorded"},
+     m.pga);
   ar(Field{.key = "factor", .text = "in place of `pga`: times this", .default_text = "1"}, m.factor);
   ar(Field{"direction", "of the base acceleration"}, m.direction);
 }
 
-// --- analysis, output -------------------------------------------------------------------------------------------------
+// --- analysis, output
+// -------------------------------------------------------------------------------------------------
 
 template <class Archive>
 void visit(Archive& ar, AnalysisOptions& a) {
   ar(Field{"scheme", "time integration"}, a.scheme);
   ar(Field{"dt", "time step", dimension::time, range::positive}, a.dt);
-  ar(Field{"duration", "model time; 0: length of the longest motion", dimension::time, range::non_negative}, a.duration);
+  ar(Field{"duration", "model time; 0: length of the longest motion", dimension::time, range::non_negative},
+     a.duration);
   ar(Field{"theta", "of the theta-method; the paper uses 1", {}, {0.5, 1}}, a.theta);
-  ar(Field{"gamma", "a pair is active where g + gamma dt g' < 0; the paper uses 1.5", {}, range::non_negative}, a.gamma);
-  ar(Field{"newton_tolerance", "residual relative to the largest force of the step", {}, range::positive}, a.newton_tolerance);
+  ar(Field{"gamma", "a pair is active where g + gamma dt g' < 0; the paper uses 1.5", {}, range::non_negative},
+     a.gamma);
+  ar(Field{"newton_tolerance", "residual relative to the largest force of the step", {}, range::positive},
+     a.newton_tolerance);
   ar(Field{"max_newton", "iterations of a step", {}, count}, a.max_newton);
   ar(Field{"max_halvings", "of a step whose iterations fail", {}, {0, 60}}, a.max_halvings);
   ar(Field{"contact_solver", "of the contact problem"}, a.contact_solver);
@@ -187,7 +213,8 @@ void visit(Archive& ar, AnalysisOptions& a) {
 template <class Archive>
 void visit(Archive& ar, OutputOptions& o) {
   ar(Field{"frames", "rate of ParaView frames; 0: none", dimension::frequency, range::non_negative}, o.frames);
-  ar(Field{"history_rate", "rate of histories; 0: every step", dimension::frequency, range::non_negative}, o.history_rate);
+  ar(Field{"history_rate", "rate of histories; 0: every step", dimension::frequency, range::non_negative},
+     o.history_rate);
   ar(Field{"history", "what to keep: `nodes`, `contacts`, `elements`, `sections`, `energy`, `ground`"}, o.history);
   ar(Field{"nodes", "`structure.node` to keep; empty: all"}, o.nodes);
   ar(Field{"amplification", "of the displacements stored in the frames", {}, range::non_negative}, o.amplification);

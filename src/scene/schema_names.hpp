@@ -23,23 +23,24 @@ constexpr auto names_of(Geometry) {
   return Names<Geometry, 2>{{{"linear", Geometry::linear}, {"p-delta", Geometry::p_delta}}};
 }
 constexpr auto names_of(Dof) {
-  return Names<Dof, 6>{{{"ux", Dof::ux}, {"uy", Dof::uy}, {"uz", Dof::uz}, {"rx", Dof::rx}, {"ry", Dof::ry}, {"rz", Dof::rz}}};
+  return Names<Dof, 6>{
+      {{"ux", Dof::ux}, {"uy", Dof::uy}, {"uz", Dof::uz}, {"rx", Dof::rx}, {"ry", Dof::ry}, {"rz", Dof::rz}}};
 }
 constexpr auto names_of(SlabKind) {
-  return Names<SlabKind, 3>{{{"links", SlabKind::links}, {"rigid", SlabKind::rigid}, {"diaphragm", SlabKind::diaphragm}}};
+  return Names<SlabKind, 3>{
+      {{"links", SlabKind::links}, {"rigid", SlabKind::rigid}, {"diaphragm", SlabKind::diaphragm}}};
 }
 constexpr auto names_of(PlanAxis) { return Names<PlanAxis, 2>{{{"x", PlanAxis::x}, {"y", PlanAxis::y}}}; }
 constexpr auto names_of(BracePlane) {
-  return Names<BracePlane, 4>{{{"-x", BracePlane::x_low},
-                               {"+x", BracePlane::x_high},
-                               {"-y", BracePlane::y_low},
-                               {"+y", BracePlane::y_high}}};
+  return Names<BracePlane, 4>{
+      {{"-x", BracePlane::x_low}, {"+x", BracePlane::x_high}, {"-y", BracePlane::y_low}, {"+y", BracePlane::y_high}}};
 }
 constexpr auto names_of(BaseKind) {
   return Names<BaseKind, 3>{{{"fixed", BaseKind::fixed}, {"pinned", BaseKind::pinned}, {"spring", BaseKind::spring}}};
 }
 constexpr auto names_of(DampingKind) {
-  return Names<DampingKind, 3>{{{"none", DampingKind::none}, {"modal", DampingKind::modal}, {"rayleigh", DampingKind::rayleigh}}};
+  return Names<DampingKind, 3>{
+      {{"none", DampingKind::none}, {"modal", DampingKind::modal}, {"rayleigh", DampingKind::rayleigh}}};
 }
 constexpr auto names_of(ContactKind) {
   return Names<ContactKind, 2>{{{"slab-corners", ContactKind::slab_corners}, {"nodes", ContactKind::nodes}}};
@@ -48,8 +49,8 @@ constexpr auto names_of(MotionUnit) {
   return Names<MotionUnit, 2>{{{"g", MotionUnit::g}, {"m/s2", MotionUnit::metres}}};
 }
 constexpr auto names_of(ContactSolverKind) {
-  return Names<ContactSolverKind, 2>{{{"active-set", ContactSolverKind::active_set},
-                                      {"gauss-seidel", ContactSolverKind::gauss_seidel}}};
+  return Names<ContactSolverKind, 2>{
+      {{"active-set", ContactSolverKind::active_set}, {"gauss-seidel", ContactSolverKind::gauss_seidel}}};
 }
 
 }  // namespace nsframe

@@ -27,7 +27,8 @@ constexpr bool is_map(const SupportTable*) { return true; }
 template <class Archive>
 void visit(Archive& ar, MassTable& m) {
   ar(required("node", "node"), m.node);
-  ar(required("mass", "one value for all three translations, or one each", dimension::mass, range::non_negative), m.mass);
+  ar(required("mass", "one value for all three translations, or one each", dimension::mass, range::non_negative),
+     m.mass);
   ar(Field{"inertia", "about x, y and z", dimension::inertia, range::non_negative}, m.inertia);
 }
 inline constexpr std::string_view mass_row[]{"node", "mass..."};
@@ -40,11 +41,16 @@ void visit(Archive& ar, BeamTable& b) {
   ar(required("nodes", "from, to"), b.nodes);
   ar(required("section", "section"), b.section);
   ar(Field{.key = "element", .text = "elastic or fiber beam-column", .default_text = "the structure's"}, b.element);
-  ar(Field{.key = "points", .text = "Gauss-Lobatto points of a fiber beam", .range = gauss_points,
-           .default_text = "the structure's"}, b.points);
+  ar(Field{.key = "points",
+           .text = "Gauss-Lobatto points of a fiber beam",
+           .range = gauss_points,
+           .default_text = "the structure's"},
+     b.points);
   ar(Field{.key = "geometry", .text = "linear or P-Delta", .default_text = "the structure's"}, b.geometry);
-  ar(Field{.key = "orientation", .text = "vector in the local x-z plane",
-           .default_text = "local y along global X in vertical members, upwards in others"}, b.orientation);
+  ar(Field{.key = "orientation",
+           .text = "vector in the local x-z plane",
+           .default_text = "local y along global X in vertical members, upwards in others"},
+     b.orientation);
 }
 inline constexpr std::string_view beam_row[]{"id", "nodes", "nodes", "section"};
 constexpr RowKeys row_keys(const BeamTable*) { return beam_row; }
@@ -113,10 +119,13 @@ void visit(Archive& ar, SlabTable& s) {
   ar(required("corners", "nodes in order around the slab"), s.corners);
   ar(Field{"center", "node; the master of a rigid slab or diaphragm"}, s.center);
   ar(Field{"nodes", "further nodes tied by a rigid slab or diaphragm"}, s.nodes);
-  ar(Field{"kind", "links: carried by elements given elsewhere; rigid: one rigid body; diaphragm: rigid in its plane"}, s.kind);
+  ar(Field{"kind", "links: carried by elements given elsewhere; rigid: one rigid body; diaphragm: rigid in its plane"},
+     s.kind);
   ar(Field{"thickness", "for drawing only", dimension::length, range::positive}, s.thickness);
-  ar(Field{.key = "rigid_contact", .text = "impacts act on the whole slab, not on the corner's share",
-           .default_text = "unless kind is links"}, s.rigid_contact);
+  ar(Field{.key = "rigid_contact",
+           .text = "impacts act on the whole slab, not on the corner's share",
+           .default_text = "unless kind is links"},
+     s.rigid_contact);
 }
 
 template <class Archive, class Initial>
@@ -140,9 +149,14 @@ constexpr RowKeys row_keys(const InitialVelocity*) { return initial_row; }
 template <class Archive>
 void visit(Archive& ar, DampingTable& d) {
   ar(Field{"kind", "modal: eq. (22), by structure; rayleigh: mass_factor M + stiffness_factor K"}, d.kind);
-  ar(Field{"ratios", "modal: of the first modes in order, or by name (L1 along x, T1 along y, R1 about z, V1 along z); "
-                     "rayleigh: at the two frequencies", {}, range::non_negative}, d.ratios);
-  ar(Field{"frequencies", "rayleigh: two, in place of the factors", dimension::frequency, range::positive}, d.frequencies);
+  ar(Field{"ratios",
+           "modal: of the first modes in order, or by name (L1 along x, T1 along y, R1 about z, V1 along z); "
+           "rayleigh: at the two frequencies",
+           {},
+           range::non_negative},
+     d.ratios);
+  ar(Field{"frequencies", "rayleigh: two, in place of the factors", dimension::frequency, range::positive},
+     d.frequencies);
   ar(Field{"mass_factor", "rayleigh", dimension::frequency, range::non_negative}, d.mass_factor);
   ar(Field{"stiffness_factor", "rayleigh", dimension::time, range::non_negative}, d.stiffness_factor);
 }
@@ -188,7 +202,9 @@ void visit(Archive& ar, FrameColumns& m) {
 
 template <class Archive>
 void visit(Archive& ar, FrameSlab& s) {
-  ar(Field{"kind", "links: elastic members from the centre to the columns; rigid: one body; diaphragm: rigid in its plane"}, s.kind);
+  ar(Field{"kind",
+           "links: elastic members from the centre to the columns; rigid: one body; diaphragm: rigid in its plane"},
+     s.kind);
   ar(Field{"section", "of the links"}, s.section);
   ar(Field{"thickness", "for drawing only", dimension::length, range::positive}, s.thickness);
 }
@@ -214,7 +230,9 @@ void visit(Archive& ar, StoryFrameTable& t) {
   StoryFrame& f = t.frame;
   ar(Field{"stories", "number of stories", {}, {1, 1000}}, f.stories);
   ar(Field{"height", "of a story; one, or one a story", dimension::length, range::positive}, f.height);
-  ar(required("plan", "lengths along x and y; a list of spans in place of a length", dimension::length, range::positive), f.plan);
+  ar(required("plan", "lengths along x and y; a list of spans in place of a length", dimension::length,
+              range::positive),
+     f.plan);
   ar(Field{"bays", "equal bays along x and y", {}, {1, 1000}}, f.bays);
   ar(Field{"origin", "the plan's corner of lowest x and y, at the base", dimension::length}, f.origin);
   ar(Field{"columns", "at every crossing of the grid"}, f.columns);
@@ -223,10 +241,14 @@ void visit(Archive& ar, StoryFrameTable& t) {
   ar(Field{"braces", "crossed braces in outer planes"}, f.braces);
   ar(Field{"base", "feet of the columns"}, f.base);
   ar(Field{"floor_mass", "one, or one a story", dimension::mass, range::non_negative}, f.mass.floor);
-  ar(Field{"centre_share", "of the horizontal mass at the slab's centre; the outer corners share the rest", {}, range::unit},
+  ar(Field{"centre_share",
+           "of the horizontal mass at the slab's centre; the outer corners share the rest",
+           {},
+           range::unit},
      f.mass.centre_share);
   ar(Field{"centre_inertia", "extra inertia about z at the centre; one, or one a story", dimension::inertia,
-           range::non_negative}, f.mass.centre_inertia);
+           range::non_negative},
+     f.mass.centre_inertia);
   ar(Field{"damping", "damping"}, t.damping);
 }
 

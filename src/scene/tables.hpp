@@ -28,7 +28,8 @@ struct DofSet {
 inline constexpr std::array<std::string_view, 6> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 enum class Dof { ux, uy, uz, rx, ry, rz };
 
-// --- materials and sections -------------------------------------------------------------------------------------------
+// --- materials and sections
+// -------------------------------------------------------------------------------------------
 
 struct MaterialTable {
   std::string name;
@@ -37,35 +38,35 @@ struct MaterialTable {
 };
 
 struct ShapeSection {
-  Reference shape;                                // of the catalogue
+  Reference shape;  // of the catalogue
   Reference material;
   int flange_width = ShapeMesh{}.flange_width, flange_layers = ShapeMesh{}.flange_layers, web = ShapeMesh{}.web;
   bool fillets = ShapeMesh{}.fillets;
   double poisson = 0.3;
-  std::optional<double> G, J;                     // [Pa], [m4]
+  std::optional<double> G, J;  // [Pa], [m4]
 };
 
 struct ConstantsSection {
-  ElasticSection constants;                       // but for G
-  std::optional<double> G, poisson;               // [Pa], [-]: one of them
-  double depth = 0, width = 0;                    // [m] along local y and z, of the rectangle drawn
+  ElasticSection constants;          // but for G
+  std::optional<double> G, poisson;  // [Pa], [-]: one of them
+  double depth = 0, width = 0;       // [m] along local y and z, of the rectangle drawn
 };
 
 struct PatchTable {
   Reference material;
-  std::array<double, 2> y{}, z{};                 // [m] from, to
+  std::array<double, 2> y{}, z{};  // [m] from, to
   int ny = 1, nz = 1;
 };
 
 struct FiberTable {
-  double y = 0, z = 0, area = 0;                  // [m], [m2]
+  double y = 0, z = 0, area = 0;  // [m], [m2]
   Reference material;
 };
 
 struct PatchSection {
   std::vector<PatchTable> patches;
   std::vector<FiberTable> fibers;
-  std::optional<double> GJ, G, J;                 // [N m2], [Pa], [m4]
+  std::optional<double> GJ, G, J;  // [N m2], [Pa], [m4]
 };
 
 struct SectionTable {
@@ -74,11 +75,12 @@ struct SectionTable {
   std::variant<ShapeSection, ConstantsSection, PatchSection> kind;
 };
 
-// --- explicit structures ----------------------------------------------------------------------------------------------
+// --- explicit structures
+// ----------------------------------------------------------------------------------------------
 
 struct NodeTable {
   Reference id;
-  double x = 0, y = 0, z = 0;                     // [m]
+  double x = 0, y = 0, z = 0;  // [m]
 };
 
 struct SupportTable {
@@ -88,26 +90,26 @@ struct SupportTable {
 
 struct MassTable {
   Reference node;
-  std::vector<double> mass;                       // [kg], one for all directions or three
-  std::vector<double> inertia;                    // [kg m2], none or three
+  std::vector<double> mass;     // [kg], one for all directions or three
+  std::vector<double> inertia;  // [kg m2], none or three
 };
 
 struct BeamTable {
   Reference id;
   std::vector<Reference> nodes;
   Reference section;
-  std::optional<BeamKind> element;                // default: the structure's
+  std::optional<BeamKind> element;  // default: the structure's
   std::optional<int> points;
   std::optional<Geometry> geometry;
   std::optional<std::array<double, 3>> orientation;
 };
 
-struct BarTable {                                 // truss or cable
+struct BarTable {  // truss or cable
   Reference id;
   std::vector<Reference> nodes;
   Reference material;
-  double area = 0;                                // [m2]
-  double pretension = 0;                          // [N]
+  double area = 0;        // [m2]
+  double pretension = 0;  // [N]
   std::optional<Geometry> geometry;
 };
 
@@ -124,13 +126,13 @@ struct LawTable {
 
 struct SpringTable {
   Reference id;
-  std::vector<Reference> nodes;                   // one: to the ground
+  std::vector<Reference> nodes;  // one: to the ground
   StiffnessTable stiffness;
   DashpotTable damping;
   LawTable law;
 };
 
-struct TieTable {                                 // rigid link or diaphragm
+struct TieTable {  // rigid link or diaphragm
   Reference master;
   std::vector<Reference> slaves;
 };
@@ -145,16 +147,16 @@ struct SlabTable {
   Reference id;
   std::vector<Reference> corners;
   std::optional<Reference> center;
-  std::vector<Reference> nodes;                   // further nodes tied by a rigid slab or diaphragm
+  std::vector<Reference> nodes;  // further nodes tied by a rigid slab or diaphragm
   SlabKind kind = SlabKind::links;
-  double thickness = SlabDescription{}.thickness; // [m]
-  std::optional<bool> rigid_contact;              // default: kind is not links
+  double thickness = SlabDescription{}.thickness;  // [m]
+  std::optional<bool> rigid_contact;               // default: kind is not links
 };
 
 struct InitialTable {
   Reference node;
   Dof dof = Dof::ux;
-  double value = 0;                               // [m, rad] or [m/s, rad/s]
+  double value = 0;  // [m, rad] or [m/s, rad/s]
 };
 struct InitialDisplacement : InitialTable {
   Dimension dimension() const { return dof < Dof::rx ? dimension::length : dimension::angle; }
@@ -172,16 +174,16 @@ struct RatioTable {
 struct DampingTable {
   Location at;
   DampingKind kind = DampingKind::none;
-  RatioTable ratios;                              // modal; rayleigh: of the two frequencies
-  std::vector<double> frequencies;                // [Hz] rayleigh, none or two
-  double mass_factor = 0;                         // [1/s]
-  double stiffness_factor = 0;                    // [s]
+  RatioTable ratios;                // modal; rayleigh: of the two frequencies
+  std::vector<double> frequencies;  // [Hz] rayleigh, none or two
+  double mass_factor = 0;           // [1/s]
+  double stiffness_factor = 0;      // [s]
 };
 
 struct ExplicitStructure {
   std::string name;
   Location at;
-  BeamKind element = BeamKind::elastic;           // defaults of the beams
+  BeamKind element = BeamKind::elastic;  // defaults of the beams
   int points = ElementDescription{}.points;
   Geometry geometry = Geometry::linear;
   bool may_move_freely = false;
@@ -199,35 +201,37 @@ struct ExplicitStructure {
   DampingTable damping;
 };
 
-// --- parametric structures --------------------------------------------------------------------------------------------
+// --- parametric structures
+// --------------------------------------------------------------------------------------------
 
 struct StoryFrameTable {
-  StoryFrame frame;                               // its damping is `damping`
+  StoryFrame frame;  // its damping is `damping`
   DampingTable damping;
 };
 
 using StructureTable = std::variant<ExplicitStructure, StoryFrameTable>;
 
-// --- contact, loads ---------------------------------------------------------------------------------------------------
+// --- contact, loads
+// ---------------------------------------------------------------------------------------------------
 
 // One value, a row, or rows of values.
 struct GapList {
-  std::vector<double> values;                     // [m]
+  std::vector<double> values;  // [m]
 };
 
 struct ContactTable {
   Location at;
   std::string name;
-  std::optional<ContactKind> kind;                // default: by the names in `between`
+  std::optional<ContactKind> kind;  // default: by the names in `between`
   std::vector<Reference> between;
-  std::optional<Reference> a, b;                  // in place of `between`
+  std::optional<Reference> a, b;  // in place of `between`
   Direction direction;
   GapList gap;
   double restitution = ContactDescription{}.restitution;
 };
 
 struct GravityTable {
-  double acceleration = 9.81;                     // [m/s2]
+  double acceleration = 9.81;  // [m/s2]
   Direction direction{-Vector3::UnitZ()};
   bool statically_first = true;
 };
@@ -237,9 +241,9 @@ enum class MotionUnit { g, metres };
 struct MotionTable {
   Location at;
   Reference file;
-  std::optional<double> dt;                       // [s]
-  std::optional<MotionUnit> unit;                 // of the numbers in the file
-  std::optional<double> pga;                      // [m/s2]
+  std::optional<double> dt;        // [s]
+  std::optional<MotionUnit> unit;  // of the numbers in the file
+  std::optional<double> pga;       // [m/s2]
   std::optional<double> factor;
   Direction direction;
 };

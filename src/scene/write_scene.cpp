@@ -113,7 +113,8 @@ class SceneWriter {
     }
   }
   void operator()(const Field&, const std::vector<StructureTable>& structures) {
-    for (const StructureTable& structure : structures) std::visit([&](const auto& s) { write_structure(s); }, structure);
+    for (const StructureTable& structure : structures)
+      std::visit([&](const auto& s) { write_structure(s); }, structure);
   }
   template <class Table>
   void operator()(const Field& field, const std::vector<Table>& list) {
@@ -158,7 +159,8 @@ void move_files(Scene& scene, const std::filesystem::path& target) {
   if (target.empty()) return;
   for (MotionTable& motion : scene.tables.motions) {
     const std::filesystem::path file = std::filesystem::absolute(scene.directory / motion.file.name).lexically_normal();
-    const std::filesystem::path relative = file.lexically_relative(std::filesystem::absolute(target).lexically_normal());
+    const std::filesystem::path relative =
+        file.lexically_relative(std::filesystem::absolute(target).lexically_normal());
     motion.file.name = (relative.empty() ? file : relative).generic_string();
   }
 }

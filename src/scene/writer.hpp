@@ -31,8 +31,8 @@ class ValueWriter {
   std::string write(const GapList& value) const { return write(value.values); }
 
   template <class Enum>
-    requires std::is_enum_v<Enum>
-  std::string write(Enum value) const {
+  requires std::is_enum_v<Enum> std::string write(Enum value)
+  const {
     for (const auto& [name, choice] : names_of(Enum{}))
       if (choice == value) return toml_text(name);
     return "";
@@ -53,13 +53,14 @@ class ValueWriter {
     return list(values);
   }
   template <class Table>
-    requires std::is_class_v<Table>
-  std::string write(const Table& value) const;
+  requires std::is_class_v<Table> std::string write(const Table& value)
+  const;
 
  private:
   template <class List>
   std::string list(const List& values) const {
-    constexpr bool rows = std::is_class_v<typename List::value_type> && !std::is_same_v<typename List::value_type, Reference> &&
+    constexpr bool rows = std::is_class_v<typename List::value_type> &&
+                          !std::is_same_v<typename List::value_type, Reference> &&
                           !std::is_same_v<typename List::value_type, std::string> &&
                           !std::is_same_v<typename List::value_type, std::vector<double>>;
     std::string out = "[";
@@ -94,8 +95,8 @@ class TableWriter {
 };
 
 template <class Table>
-  requires std::is_class_v<Table>
-std::string ValueWriter::write(const Table& value) const {
+requires std::is_class_v<Table> std::string ValueWriter::write(const Table& value)
+const {
   Table copy = value;
   TableWriter table(*this);
   visit(table, copy);
