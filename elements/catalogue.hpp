@@ -18,7 +18,7 @@ struct CatalogueShape {
   double J;                    // tabulated torsion constant [m4]
 };
 
-// The shape of that name (case and blanks ignored: "HEA 100", "hea100"), or nullptr.
+// The shape of that name ("HEA 100", "hea100" or "HE 100 A": case and blanks ignored), or nullptr.
 const CatalogueShape* find_shape(std::string_view name);
 std::vector<std::string> shape_names();
 

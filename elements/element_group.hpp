@@ -44,12 +44,21 @@ class ElementGroup {
   // True when force = tangent * displacement with a constant tangent: assembled once, never evaluated again.
   virtual bool linear() const = 0;
 
-  // First history double of an element within its group's block, and after the last one the block's size.
+  // False when the tangent is not symmetric (P-Delta).
+  virtual bool symmetric() const { return true; }
+
+  // First history double of an element within its group's block; of size(), the block's size.
   virtual int history_begin(int element) const { (void)element; return 0; }
   virtual void initialize_history(int element, double* history) const { (void)element; (void)history; }
+  // Called before the first respond() of every attempted step: brings what respond() keeps in `trial` as its first
+  // guess back to the committed state.
+  virtual void start_step(int element, const double* committed, double* trial) const {
+    (void)element; (void)committed; (void)trial;
+  }
 
   // Internal force (12) and, if `tangent` is not null, its derivative (12x12), in global axes [N, N m], at the
-  // displacement (12) of the element's nodes. `committed` and `trial` are the element's own histories.
+  // displacement (12) of the element's nodes. `committed` and `trial` are the element's own histories. Throws
+  // ConvergenceError when an element's own iterations fail.
   virtual void respond(int element, const Vector12& displacement, const double* committed, double* trial,
                        Vector12& force, Matrix12* tangent) const = 0;
 

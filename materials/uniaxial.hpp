@@ -1,14 +1,11 @@
-// The registry of uniaxial laws. A new law is one header beside this one, one entry in UniaxialLaw, one entry in the
-// scene schema and one test.
+// The registry of uniaxial laws. A new law is one header (law.hpp says what it holds), its line in laws.hpp and in
+// UniaxialLaw, its fields in the scene schema, and one test.
 #pragma once
 
 #include <string>
 #include <variant>
 
-#include "materials/elastic.hpp"
-#include "materials/elastic_pp.hpp"
-#include "materials/steel01.hpp"
-#include "materials/steel02.hpp"
+#include "materials/laws.hpp"
 
 namespace nsframe {
 

@@ -24,7 +24,8 @@ struct Nodes {
 // A slab, for contact and drawing.
 struct Slab {
   std::string id;
-  int structure = 0;
+  int structure = 0;                  // index into Model::structures
+  int description = 0;                // index into ModelDescription::structures
   std::vector<int> corners;           // nodes, in order around the slab
   int center = -1;                    // node, or -1
   double thickness = 0.12;            // [m]
@@ -34,8 +35,9 @@ struct Slab {
 // A connected structure: its free DOFs are contiguous, and no stiffness or damping couples it to another one.
 struct Structure {
   std::string name;
+  Location at;
   int first_dof = 0, last_dof = 0;    // [first, last) free DOFs
-  int first_node = 0, last_node = 0;  // [first, last) nodes
+  std::vector<int> nodes;
   DampingDescription damping;
   bool may_move_freely = false;
 };

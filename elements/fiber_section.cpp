@@ -1,0 +1,124 @@
+#include "elements/fiber_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nsframe {
+
+namespace {
+
+bool same_law(const UniaxialLaw& a, const UniaxialLaw& b) {
+  if (a.index() != b.index()) return false;
+  return std::visit(
+      [&b](const auto& law) {
+        using Law = std::decay_t<decltype(law)>;
+        const auto* first = reinterpret_cast<const double*>(&law);
+        const auto* second = reinterpret_cast<const double*>(&std::get<Law>(b));
+        return std::equal(first, first + sizeof(Law) / sizeof(double), second);
+      },
+      a);
+}
+
+double strain_at(const FiberSection& section, const Vector3& deformation, std::size_t i) {
+  return deformation[0] - section.y[i] * deformation[1] + section.z[i] * deformation[2];
+}
+
+// Calls visit(block, index into y/z/area, first history double, stride) for every real fiber.
+template <class Visit>
+void for_each_fiber(const FiberSection& section, Visit&& visit) {
+  for (const FiberBlock& block : section.blocks) {
+    for (int i = 0; i < block.fibers; ++i) {
+      visit(block, static_cast<std::size_t>(block.first + i), block.history_begin + i, block.count);
+    }
+  }
+}
+
+void gather(const double* from, int stride, int components, double* to) {
+  for (int k = 0; k < components; ++k) to[k] = from[k * stride];
+}
+
+constexpr int max_history = 64;  // components of any law; checked when a section is built
+
+}  // namespace
+
+FiberSection::FiberSection(const std::vector<Fiber>& all, double gj) : torsion_stiffness(gj) {
+  std::vector<std::vector<const Fiber*>> by_law;
+  for (const Fiber& fiber : all) {
+    auto same = std::find_if(by_law.begin(), by_law.end(),
+                             [&](const auto& block) { return same_law(block.front()->law, fiber.law); });
+    if (same == by_law.end()) same = by_law.insert(by_law.end(), std::vector<const Fiber*>());
+    same->push_back(&fiber);
+  }
+  for (const auto& members : by_law) {
+    FiberBlock block{members.front()->law, static_cast<int>(y.size()), 0, static_cast<int>(members.size()), history_size};
+    require(nsframe::history_size(block.law) <= max_history, "a law keeps too many history variables");
+    block.count = (block.fibers + fiber_padding - 1) / fiber_padding * fiber_padding;
+    for (const Fiber* fiber : members) {
+      y.push_back(fiber->y);
+      z.push_back(fiber->z);
+      area.push_back(fiber->area);
+    }
+    for (auto* column : {&y, &z, &area}) column->resize(static_cast<std::size_t>(block.first + block.count), 0.0);
+    history_size += block.count * nsframe::history_size(block.law);
+    fibers += block.fibers;
+    blocks.push_back(block);
+  }
+}
+
+void initialize_history(const FiberSection& section, double* history) {
+  double virgin[max_history];
+  for (const FiberBlock& block : section.blocks) {
+    initialize_history(block.law, virgin);
+    for (int k = 0; k < history_size(block.law); ++k) {
+      std::fill_n(history + block.history_begin + k * block.count, block.count, virgin[k]);
+    }
+  }
+}
+
+SectionResponse respond_scalar(const FiberSection& section, const Vector3& deformation, const double* committed,
+                               double* trial) {
+  SectionResponse sum;
+  double before[max_history], after[max_history];
+  for_each_fiber(section, [&](const FiberBlock& block, std::size_t i, int begin, int stride) {
+    const int components = history_size(block.law);
+    gather(committed + begin, stride, components, before);
+    const UniaxialPoint point = respond(block.law, strain_at(section, deformation, i), before, after);
+    for (int k = 0; k < components; ++k) trial[begin + k * stride] = after[k];
+    const Vector3 lever(1.0, -section.y[i], section.z[i]);
+    sum.force += point.stress * section.area[i] * lever;
+    sum.tangent += point.tangent * section.area[i] * lever * lever.transpose();
+  });
+  return sum;
+}
+
+Matrix3 initial_tangent(const FiberSection& section) {
+  Matrix3 sum = Matrix3::Zero();
+  for_each_fiber(section, [&](const FiberBlock& block, std::size_t i, int, int) {
+    const Vector3 lever(1.0, -section.y[i], section.z[i]);
+    sum += initial_tangent(block.law) * section.area[i] * lever * lever.transpose();
+  });
+  return sum;
+}
+
+double peak_strain_ratio(const FiberSection& section, const Vector3& deformation) {
+  double peak = 0;
+  for_each_fiber(section, [&](const FiberBlock& block, std::size_t i, int, int) {
+    peak = std::max(peak, std::abs(strain_at(section, deformation, i)) / yield_strain(block.law));
+  });
+  return peak;
+}
+
+bool has_yielded(const FiberSection& section, const Vector3& deformation, const double* committed) {
+  bool yielded = false;
+  double before[max_history], after[max_history];
+  for_each_fiber(section, [&](const FiberBlock& block, std::size_t i, int begin, int stride) {
+    if (yielded || is_linear(block.law)) return;
+    gather(committed + begin, stride, history_size(block.law), before);
+    const double strain = strain_at(section, deformation, i);
+    const double stress = respond(block.law, strain, before, after).stress;
+    yielded = std::abs(strain - stress / initial_tangent(block.law)) > 0.1 * yield_strain(block.law);
+  });
+  return yielded;
+}
+
+}  // namespace nsframe

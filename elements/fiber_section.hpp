@@ -1,0 +1,65 @@
+// Fiber section: structure of arrays, fibers of one law in a block, evaluated by a SIMD kernel chosen at run time.
+// strain(y, z) = e0 - y kz + z ky;  N = sum s A, Mz = -sum s A y, My = sum s A z  (theory.md, "Sections").
+#pragma once
+
+#include <vector>
+
+#include "base/types.hpp"
+#include "materials/uniaxial.hpp"
+
+namespace nsframe {
+
+struct SectionResponse {
+  Vector3 force = Vector3::Zero();    // N [N], Mz, My [N m]
+  Matrix3 tangent = Matrix3::Zero();  // derivative by (e0, kz, ky), symmetric
+};
+
+// One fiber to build a section from.
+struct Fiber {
+  double y = 0, z = 0;   // [m]
+  double area = 0;       // [m2]
+  UniaxialLaw law;
+};
+
+struct FiberBlock {
+  UniaxialLaw law;
+  int first = 0, count = 0;    // padded to a multiple of fiber_padding by fibers without area
+  int fibers = 0;              // without the padding
+  int history_begin = 0;       // component k of fiber i stands at history_begin + k * count + i
+};
+
+inline constexpr int fiber_padding = 8;  // doubles in the widest SIMD register in use
+
+struct FiberSection {
+  std::vector<double> y, z, area;
+  std::vector<FiberBlock> blocks;
+  double torsion_stiffness = 0;  // GJ [N m2]
+  int history_size = 0;          // doubles
+  int fibers = 0;
+
+  FiberSection() = default;
+  // Fibers with equal laws are gathered into blocks, in the order of their first appearance.
+  FiberSection(const std::vector<Fiber>& fibers, double torsion_stiffness);
+};
+
+void initialize_history(const FiberSection& section, double* history);
+
+// Section forces and tangent at `deformation` = (e0, kz, ky) from the committed fiber histories (history_size
+// doubles each); writes the histories at the trial strains.
+SectionResponse respond(const FiberSection& section, const Vector3& deformation, const double* committed,
+                        double* trial);
+
+// The same fiber by fiber in plain doubles: the definition that the kernel is tested against.
+SectionResponse respond_scalar(const FiberSection& section, const Vector3& deformation, const double* committed,
+                               double* trial);
+
+// Tangent of the virgin section: EA, EIz, EIy and couplings.
+Matrix3 initial_tangent(const FiberSection& section);
+
+// Largest |strain| of a fiber over its yield strain at `deformation` (0 if no fiber can yield).
+double peak_strain_ratio(const FiberSection& section, const Vector3& deformation);
+
+// True when the plastic strain |e - s/E| of a fiber exceeds a tenth of its yield strain; `committed` as for respond().
+bool has_yielded(const FiberSection& section, const Vector3& deformation, const double* committed);
+
+}  // namespace nsframe

@@ -1,0 +1,27 @@
+// Force-based fiber beam-columns: section forces interpolated exactly from the basic forces (Spacone, Filippou,
+// Taucer 1996; the state determination of Neuenhofer, Filippou 1997). One element a member is enough.
+#pragma once
+
+#include "elements/fiber_beam.hpp"
+
+namespace nsframe {
+
+class ForceBeams : public FiberBeams {
+ public:
+  using FiberBeams::FiberBeams;
+  std::string_view kind() const override { return "force_beam"; }
+  void initialize_history(int element, double* history) const override;
+  void start_step(int element, const double* committed, double* trial) const override;
+  void respond(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
+               Matrix12* tangent) const override;
+  std::vector<SectionResult> sections(int element, const Vector12& displacement, const double* history) const override;
+
+ protected:
+  // Basic forces (5), element tangent (25), then for each point: deformation (3), force (3), tangent (9).
+  int head_size() const override { return 30 + 15 * points(); }
+
+ private:
+  void integrate(const Element& element, const double* head, Vector5& deformation, Matrix5& flexibility) const;
+};
+
+}  // namespace nsframe

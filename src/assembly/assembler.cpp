@@ -1,0 +1,180 @@
+#include "assembly/assembler.hpp"
+
+#include <algorithm>
+#include <exception>
+
+#include "elements/fiber_beam.hpp"
+
+namespace nsframe {
+
+namespace {
+
+constexpr int dense_limit = 512;          // free DOFs of a structure up to which K is kept dense
+constexpr int parallel_elements = 4;      // below this, threads cost more than they save
+
+Vector12 gather(const ElementGroup& group, int element, const VectorX& full) {
+  Vector12 u;
+  const ElementNodes& nodes = group.nodes(element);
+  for (int end = 0; end < 2; ++end) {
+    const int node = nodes[static_cast<std::size_t>(end)];
+    if (node >= 0) {
+      u.segment<6>(6 * end) = full.segment<6>(6 * node);
+    } else {
+      u.segment<6>(6 * end).setZero();
+    }
+  }
+  return u;
+}
+
+}  // namespace
+
+Assembler::Assembler(const Model& model, int threads) : model_(model), threads_(std::max(1, threads)) {
+  for (const Structure& structure : model.structures) blocks_.push_back({structure.first_dof, structure.last_dof});
+  std::vector<Eigen::Triplet<double>> pattern;
+  for (std::size_t g = 0; g < model.groups.size(); ++g) {
+    const ElementGroup& group = *model.groups[g];
+    symmetric_ = symmetric_ && group.symmetric();
+    for (int e = 0; e < group.size(); ++e) {
+      Placed placed = place(group, e, model.history_begin[g] + group.history_begin(e));
+      for (const int i : placed.dofs) {
+        for (const int j : placed.dofs) pattern.emplace_back(i, j, 0.0);
+      }
+      if (const auto* beams = dynamic_cast<const FiberBeams*>(&group)) fibers_ += beams->fibers(e);
+      (group.linear() ? linear_ : nonlinear_).push_back(std::move(placed));
+    }
+  }
+  const int size = model.dofs.size();
+  for (int i = 0; i < size; ++i) pattern.emplace_back(i, i, 0.0);
+  tangent_.resize(size, size);
+  tangent_.setFromTriplets(pattern.begin(), pattern.end());
+  tangent_.makeCompressed();
+  for (auto* elements : {&linear_, &nonlinear_}) {
+    for (Placed& placed : *elements) {
+      for (const int j : placed.dofs) {
+        for (const int i : placed.dofs) {
+          const int* const begin = tangent_.innerIndexPtr() + tangent_.outerIndexPtr()[j];
+          const int* const end = tangent_.innerIndexPtr() + tangent_.outerIndexPtr()[j + 1];
+          placed.position.push_back(static_cast<int>(std::lower_bound(begin, end, i) - tangent_.innerIndexPtr()));
+        }
+      }
+    }
+  }
+  linear_values_.assign(static_cast<std::size_t>(tangent_.nonZeros()), 0.0);
+  for (const Placed& placed : linear_) {
+    Vector12 force;
+    Matrix12 stiffness;
+    VectorX history(std::max(1, model.history_size())), trial(history.size());
+    placed.group->initialize_history(placed.element, history.data());
+    placed.group->respond(placed.element, Vector12::Zero(), history.data(), trial.data(), force, &stiffness);
+    scatter(placed, stiffness, linear_values_.data());
+  }
+  std::copy(linear_values_.begin(), linear_values_.end(), tangent_.valuePtr());
+  linear_operator_ = BlockOperator(tangent_, blocks_, dense_limit);
+  forces_.resize(nonlinear_.size());
+  tangents_.resize(nonlinear_.size());
+}
+
+Assembler::Placed Assembler::place(const ElementGroup& group, int element, int history_begin) const {
+  Placed placed{&group, element, history_begin, {}, {}, {}};
+  const SparseRows& T = model_.dofs.transformation;
+  const ElementNodes& nodes = group.nodes(element);
+  std::vector<std::array<int, 2>> entries;  // local DOF, free DOF
+  std::vector<double> factors;
+  for (int i = 0; i < 12; ++i) {
+    const int node = nodes[static_cast<std::size_t>(i / 6)];
+    if (node < 0) continue;
+    for (SparseRows::InnerIterator entry(T, 6 * node + i % 6); entry; ++entry) {
+      entries.push_back({i, static_cast<int>(entry.col())});
+      factors.push_back(entry.value());
+      placed.dofs.push_back(static_cast<int>(entry.col()));
+    }
+  }
+  std::sort(placed.dofs.begin(), placed.dofs.end());
+  placed.dofs.erase(std::unique(placed.dofs.begin(), placed.dofs.end()), placed.dofs.end());
+  placed.map = MatrixX::Zero(12, static_cast<Eigen::Index>(placed.dofs.size()));
+  for (std::size_t k = 0; k < entries.size(); ++k) {
+    const auto column = std::lower_bound(placed.dofs.begin(), placed.dofs.end(), entries[k][1]) - placed.dofs.begin();
+    placed.map(entries[k][0], column) = factors[k];
+  }
+  return placed;
+}
+
+void Assembler::scatter(const Placed& placed, const Matrix12& tangent, double* values) const {
+  Eigen::Matrix<double, 12, Eigen::Dynamic, Eigen::ColMajor, 12, 24> half;
+  const Eigen::Index n = placed.map.cols();
+  MatrixX reduced(n, n);
+  half.noalias() = tangent * placed.map;
+  reduced.noalias() = placed.map.transpose() * half;
+  const double* const entries = reduced.data();
+  for (std::size_t k = 0; k < placed.position.size(); ++k) values[placed.position[k]] += entries[k];
+}
+
+VectorX Assembler::virgin_history() const {
+  VectorX history = VectorX::Zero(model_.history_size());
+  for (std::size_t g = 0; g < model_.groups.size(); ++g) {
+    const ElementGroup& group = *model_.groups[g];
+    for (int e = 0; e < group.size(); ++e) {
+      group.initialize_history(e, history.data() + model_.history_begin[g] + group.history_begin(e));
+    }
+  }
+  return history;
+}
+
+void Assembler::start_step(const VectorX& committed, VectorX& trial) const {
+  for (const Placed& placed : nonlinear_) {
+    placed.group->start_step(placed.element, committed.data() + placed.history_begin, trial.data() + placed.history_begin);
+  }
+}
+
+void Assembler::internal_force(const VectorX& displacement, const VectorX& committed, VectorX& trial, VectorX& force) {
+  linear_operator_.multiply(displacement, force);
+  if (nonlinear_.empty()) return;
+  full_displacement_.noalias() = model_.dofs.transformation * displacement;
+  const int count = static_cast<int>(nonlinear_.size());
+  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(count));
+#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1 && count >= parallel_elements)
+  for (int i = 0; i < count; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const Placed& placed = nonlinear_[at];
+    try {
+      const Vector12 u = gather(*placed.group, placed.element, full_displacement_);
+      placed.group->respond(placed.element, u, committed.data() + placed.history_begin,
+                            trial.data() + placed.history_begin, forces_[at], &tangents_[at]);
+    } catch (...) {
+      failures[at] = std::current_exception();
+    }
+  }
+  for (const std::exception_ptr& failure : failures) {
+    if (failure) std::rethrow_exception(failure);
+  }
+  std::copy(linear_values_.begin(), linear_values_.end(), tangent_.valuePtr());
+  full_force_.setZero(model_.dofs.full);
+  for (std::size_t i = 0; i < nonlinear_.size(); ++i) {
+    const Placed& placed = nonlinear_[i];
+    for (int end = 0; end < 2; ++end) {
+      const int node = placed.group->nodes(placed.element)[static_cast<std::size_t>(end)];
+      if (node >= 0) full_force_.segment<6>(6 * node) += forces_[i].segment<6>(6 * end);
+    }
+    scatter(placed, tangents_[i], tangent_.valuePtr());
+  }
+  force.noalias() += model_.dofs.transformation_transposed * full_force_;
+}
+
+std::string Assembler::worst_element(const VectorX& residual) const {
+  const VectorX full = model_.dofs.transformation * residual;
+  double largest = -1;
+  std::string name;
+  for (const auto* elements : {&nonlinear_, &linear_}) {
+    if (largest > 0) break;
+    for (const Placed& placed : *elements) {
+      const double share = gather(*placed.group, placed.element, full).norm();
+      if (share > largest) {
+        largest = share;
+        name = placed.group->id(placed.element);
+      }
+    }
+  }
+  return name;
+}
+
+}  // namespace nsframe

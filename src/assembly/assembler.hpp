@@ -1,0 +1,63 @@
+// Internal force and tangent of the whole model in free DOFs: linear elements are assembled once, the others are
+// evaluated in parallel and summed in a fixed order, so results do not depend on the number of threads.
+#pragma once
+
+#include <vector>
+
+#include "base/block_operator.hpp"
+#include "models/model.hpp"
+#include "models/state.hpp"
+
+namespace nsframe {
+
+class Assembler {
+ public:
+  explicit Assembler(const Model& model, int threads = 1);
+
+  // No element needs to be evaluated again: P = K q.
+  bool linear() const { return nonlinear_.empty(); }
+  bool symmetric() const { return symmetric_; }
+  const std::vector<BlockRange>& blocks() const { return blocks_; }
+  long fibers() const { return fibers_; }
+
+  VectorX virgin_history() const;
+
+  // To be called before the first internal_force() of every attempted step.
+  void start_step(const VectorX& committed_history, VectorX& trial_history) const;
+
+  // P(q) [N, N m] at `displacement`; writes the trial history, and keeps the tangent for tangent().
+  void internal_force(const VectorX& displacement, const VectorX& committed_history, VectorX& trial_history,
+                      VectorX& force);
+  // dP/dq at the last internal_force(); same pattern always.
+  const SparseMatrix& tangent() const { return tangent_; }
+
+  // The element whose nodes carry the largest part of `residual` (free DOFs), for messages.
+  std::string worst_element(const VectorX& residual) const;
+
+ private:
+  struct Placed {                    // an element with its place in the reduced system
+    const ElementGroup* group;
+    int element;
+    int history_begin;
+    std::vector<int> dofs;           // free DOFs it acts on
+    MatrixX map;                     // 12 x dofs: u = map q
+    std::vector<int> position;       // of every entry (column-major, dofs x dofs) in tangent_.valuePtr()
+  };
+  Placed place(const ElementGroup& group, int element, int history_begin) const;
+  void scatter(const Placed& placed, const Matrix12& tangent, double* values) const;
+
+  const Model& model_;
+  int threads_;
+  bool symmetric_ = true;
+  long fibers_ = 0;
+  std::vector<BlockRange> blocks_;
+  std::vector<Placed> linear_, nonlinear_;
+  SparseMatrix tangent_;
+  std::vector<double> linear_values_;
+  BlockOperator linear_operator_;
+  std::vector<Vector12> forces_;
+  std::vector<Matrix12, Eigen::aligned_allocator<Matrix12>> tangents_;
+  VectorX full_displacement_, full_force_;
+};
+
+}  // namespace nsframe

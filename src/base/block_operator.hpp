@@ -1,0 +1,44 @@
+// A block-diagonal matrix, one block a connected structure: small blocks dense (SIMD), large ones sparse.
+#pragma once
+
+#include <vector>
+
+#include "base/types.hpp"
+
+namespace nsframe {
+
+// Rows and columns [first, last) of one connected structure.
+struct BlockRange {
+  int first = 0, last = 0;
+  int size() const { return last - first; }
+};
+
+class BlockOperator {
+ public:
+  BlockOperator() = default;
+  // `matrix` must have no entries outside the blocks. Blocks up to `dense_limit` rows are kept dense.
+  BlockOperator(const SparseMatrix& matrix, const std::vector<BlockRange>& blocks, int dense_limit);
+  // From dense blocks.
+  BlockOperator(const std::vector<MatrixX>& matrices, const std::vector<BlockRange>& blocks);
+
+  // y = A x; x and y may not be the same.
+  void multiply(const VectorX& x, VectorX& y) const;
+  int size() const { return size_; }
+
+ private:
+  struct Block {
+    BlockRange range;
+    int padded_rows = 0;
+    std::vector<double> dense;  // column-major, padded_rows x size; empty when sparse
+    SparseRows sparse;
+  };
+  void add_dense(const BlockRange& range, const MatrixX& matrix);
+  int size_ = 0;
+  std::vector<Block> blocks_;
+  mutable std::vector<double> padded_;
+};
+
+// The part of a block-diagonal matrix that belongs to one block.
+SparseMatrix extract_block(const SparseMatrix& matrix, const BlockRange& range);
+
+}  // namespace nsframe

@@ -1,0 +1,137 @@
+#include "integrators/iteration_matrix.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/errors.hpp"
+
+namespace nsframe {
+
+IterationMatrix::IterationMatrix(const System& system, IterationMatrixOptions options)
+    : symmetric_(system.assembler.symmetric()), linear_(system.linear()) {
+  explicit_inverse_ = linear_;
+  for (const BlockRange& range : system.assembler.blocks()) {
+    if (range.size() == 0) continue;
+    Block& block = blocks_.emplace_back();
+    block.range = range;
+    block.dense = range.size() <= options.dense_limit;
+    explicit_inverse_ = explicit_inverse_ && block.dense;
+  }
+}
+
+void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness, double a) {
+  ++factorizations_;
+  a_ = a;
+  responses_.assign(static_cast<std::size_t>(system.contacts().size()), VectorX());
+  std::size_t structure = 0;
+  std::vector<MatrixX> inverses;
+  for (Block& block : blocks_) {
+    while (system.assembler.blocks()[structure].size() == 0) ++structure;
+    block.modal = &system.damping.modal[structure++];
+    SparseMatrix J = a * a * extract_block(stiffness, block.range);
+    J += extract_block(system.mass(), block.range);
+    if (system.damping.viscous.nonZeros() > 0) J += a * extract_block(system.damping.viscous, block.range);
+    try {
+      if (block.dense) {
+        MatrixX full(J);
+        if (block.modal->cols() > 0) full.noalias() += a * (*block.modal) * block.modal->transpose();
+        factor_dense(block, std::move(full));
+      } else {
+        factor_sparse(block, J, a);
+      }
+    } catch (const ConvergenceError& problem) {
+      throw ConvergenceError(fmt::format("structure '{}': {}", system.model.structures[structure - 1].name, problem.what()));
+    }
+    if (explicit_inverse_) {
+      const MatrixX identity = MatrixX::Identity(block.range.size(), block.range.size());
+      inverses.push_back(block.use_lu ? MatrixX(block.lu.solve(identity)) : MatrixX(block.cholesky.solve(identity)));
+    }
+  }
+  if (explicit_inverse_) {
+    std::vector<BlockRange> ranges;
+    for (const Block& block : blocks_) ranges.push_back(block.range);
+    inverse_ = BlockOperator(inverses, ranges);
+  }
+}
+
+void IterationMatrix::factor_dense(Block& block, MatrixX J) const {
+  block.use_lu = !symmetric_;
+  if (!block.use_lu) {
+    block.cholesky.compute(J);
+    block.use_lu = block.cholesky.info() != Eigen::Success;  // softening beyond what the mass outweighs
+  }
+  if (block.use_lu) {
+    block.lu.compute(J);
+    if (!(block.lu.rcond() > 1e-15)) throw ConvergenceError("the iteration matrix is singular");
+  }
+}
+
+void IterationMatrix::factor_sparse(Block& block, const SparseMatrix& J, double a) const {
+  bool done = false;
+  if (symmetric_) {
+    using Factor = Eigen::SimplicialLDLT<SparseMatrix>;
+    if (!block.analyzed) {
+      block.sparse = std::make_unique<Factor>();
+      std::get<std::unique_ptr<Factor>>(block.sparse)->analyzePattern(J);
+      block.analyzed = true;
+    }
+    auto& factor = *std::get<std::unique_ptr<Factor>>(block.sparse);
+    factor.factorize(J);
+    done = factor.info() == Eigen::Success;
+  }
+  if (!done) {
+    auto factor = std::make_unique<Eigen::SparseLU<SparseMatrix>>();
+    factor->compute(J);
+    if (factor->info() != Eigen::Success) throw ConvergenceError("the iteration matrix is singular");
+    block.sparse = std::move(factor);
+    block.analyzed = false;
+  }
+  if (block.modal->cols() == 0) return;
+  solve_sparse(block, *block.modal, block.woodbury_response);
+  MatrixX small = block.modal->transpose() * block.woodbury_response;
+  small.diagonal().array() += 1 / a;
+  block.woodbury.compute(small);
+}
+
+void IterationMatrix::solve_sparse(const Block& block, const MatrixX& rhs, MatrixX& x) {
+  std::visit([&](const auto& factor) { x = factor->solve(rhs); }, block.sparse);
+}
+
+void IterationMatrix::solve(const VectorX& rhs, VectorX& x) const {
+  if (explicit_inverse_) {
+    inverse_.multiply(rhs, x);
+    return;
+  }
+  x.resize(rhs.size());
+  for (const Block& block : blocks_) {
+    const auto part = rhs.segment(block.range.first, block.range.size());
+    auto result = x.segment(block.range.first, block.range.size());
+    if (block.dense) {
+      if (block.use_lu) {
+        result = block.lu.solve(part);
+      } else {
+        result = block.cholesky.solve(part);
+      }
+      continue;
+    }
+    MatrixX solution;
+    solve_sparse(block, part, solution);
+    if (block.modal->cols() > 0) {
+      const VectorX coefficients = block.woodbury.solve(block.modal->transpose() * solution.col(0));
+      solution.col(0).noalias() -= block.woodbury_response * coefficients;
+    }
+    result = solution.col(0);
+  }
+}
+
+const VectorX& IterationMatrix::response(const Contacts& contacts, int pair) {
+  VectorX& cached = responses_[static_cast<std::size_t>(pair)];
+  if (cached.size() == 0) {
+    const VectorX row = contacts.jacobian.row(pair).transpose();
+    solve(row, cached);
+  }
+  return cached;
+}
+
+}  // namespace nsframe

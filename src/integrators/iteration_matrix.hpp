@@ -1,0 +1,59 @@
+// J = M + a C + a^2 K with a = theta h (theory.md, eq. 9), factored block by block, one block a connected structure.
+// Small structures: dense (an explicit inverse when the model is linear, since it is then used in every step). Large
+// ones: sparse, with the low-rank modal damping added by the Woodbury identity so that J keeps the pattern of K.
+#pragma once
+
+#include <memory>
+#include <variant>
+
+#include "assembly/system.hpp"
+
+namespace nsframe {
+
+struct IterationMatrixOptions {
+  int dense_limit = 160;  // rows of a structure up to which its block is dense
+};
+
+class IterationMatrix {
+ public:
+  explicit IterationMatrix(const System& system, IterationMatrixOptions options = {});
+
+  // Factors J; throws ConvergenceError when a block is singular, naming the structure.
+  void factor(const System& system, const SparseMatrix& stiffness, double a);
+  bool ready(double a) const { return a_ == a; }
+  long factorizations() const { return factorizations_; }
+
+  // x = J^-1 rhs; x and rhs may not be the same.
+  void solve(const VectorX& rhs, VectorX& x) const;
+  // J^-1 H' of one contact pair (computed once a factorization).
+  const VectorX& response(const Contacts& contacts, int pair);
+
+ private:
+  using SparseFactor = std::variant<std::unique_ptr<Eigen::SimplicialLDLT<SparseMatrix>>,
+                                    std::unique_ptr<Eigen::SparseLU<SparseMatrix>>>;
+  struct Block {
+    BlockRange range;
+    bool dense = true;
+    Eigen::LLT<MatrixX> cholesky;
+    Eigen::PartialPivLU<MatrixX> lu;
+    bool use_lu = false;
+    SparseFactor sparse;
+    bool analyzed = false;
+    MatrixX woodbury_response;              // J0^-1 U
+    Eigen::PartialPivLU<MatrixX> woodbury;  // I/a + U' J0^-1 U
+    const MatrixX* modal = nullptr;
+  };
+  void factor_dense(Block& block, MatrixX J) const;
+  void factor_sparse(Block& block, const SparseMatrix& J, double a) const;
+  static void solve_sparse(const Block& block, const MatrixX& rhs, MatrixX& x);
+
+  bool symmetric_, linear_;
+  double a_ = -1;
+  long factorizations_ = 0;
+  std::vector<Block> blocks_;
+  BlockOperator inverse_;
+  bool explicit_inverse_ = false;
+  std::vector<VectorX> responses_;
+};
+
+}  // namespace nsframe

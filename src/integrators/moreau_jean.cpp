@@ -1,0 +1,169 @@
+#include "integrators/moreau_jean.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <complex>
+
+#include "base/errors.hpp"
+
+namespace nsframe {
+
+namespace {
+
+// Residual reduction of one iteration above which the tangent is factored anew.
+constexpr double slow_reduction = 0.02;
+// Accelerations below this count as zero when the residual is judged [m/s2].
+constexpr double least_acceleration = 1e-3;
+
+}  // namespace
+
+MoreauJean::MoreauJean(const AnalysisOptions& options, const System& system)
+    : options_(options), matrix_(system), least_scale_(least_acceleration * system.mass().diagonal().norm()) {}
+
+void MoreauJean::find_active_pairs(const System& system, const State& committed, double h, StepResult& result) {
+  const Contacts& contacts = system.contacts();
+  active_.clear();
+  result.least_gap = std::numeric_limits<double>::infinity();
+  if (contacts.size() == 0) return;
+  gap_.noalias() = contacts.jacobian * committed.displacement;
+  gap_ += contacts.initial_gap;
+  rate_.noalias() = contacts.jacobian * committed.velocity;
+  result.least_gap = gap_.minCoeff();
+  for (int i = 0; i < contacts.size(); ++i) {
+    if (gap_[i] + options_.gamma * h * rate_[i] < 0) active_.push_back(i);
+  }
+}
+
+void MoreauJean::evaluate(System& system, const State& committed, State& trial, double h) {
+  const double theta = options_.theta;
+  mid_velocity_ = (1 - theta) * committed.velocity + theta * trial.velocity;
+  trial.displacement = committed.displacement + h * mid_velocity_;
+  system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force);
+  momentum_change_.noalias() = system.mass() * (trial.velocity - committed.velocity);
+  free_residual_ = momentum_change_ + h * ((1 - theta) * committed.internal_force + theta * trial.internal_force) - load_;
+  system.damping.add_force(system.assembler.blocks(), h, mid_velocity_, free_residual_);
+}
+
+void MoreauJean::update_velocity(const System& system, State& trial, StepResult& result) {
+  matrix_.solve(free_residual_, correction_);
+  trial.velocity -= correction_;
+  if (active_.empty()) return;
+  const Contacts& contacts = system.contacts();
+  const auto count = static_cast<Eigen::Index>(active_.size());
+  ContactProblem problem{MatrixX(count, count), VectorX(count)};
+  for (Eigen::Index a = 0; a < count; ++a) {
+    const int pair = active_[static_cast<std::size_t>(a)];
+    const auto row = contacts.jacobian.row(pair);
+    problem.rhs[a] = row.dot(trial.velocity) + contacts.restitution[pair] * rate_[pair];
+    for (Eigen::Index b = 0; b < count; ++b) {
+      problem.delassus(a, b) = row.dot(matrix_.response(contacts, active_[static_cast<std::size_t>(b)]));
+    }
+  }
+  const ContactOptions contact_options{options_.contact_tolerance, options_.max_contact_sweeps};
+  ContactSolution solution = options_.contact_solver == ContactSolverKind::active_set
+                                 ? solve_active_set(problem, contact_options)
+                                 : solve_gauss_seidel(problem, contact_options, impulse_);
+  result.complementarity_error = solution.error;
+  if (!solution.converged) {
+    Eigen::Index worst = 0;
+    (problem.delassus * solution.impulse + problem.rhs).minCoeff(&worst);
+    throw ConvergenceError(fmt::format("the contact problem did not converge (error {:.1e} after {} iterations), worst pair {}",
+                                       solution.error, solution.iterations,
+                                       contacts.pairs[static_cast<std::size_t>(active_[static_cast<std::size_t>(worst)])].name));
+  }
+  impulse_ = std::move(solution.impulse);
+  for (Eigen::Index a = 0; a < count; ++a) {
+    if (impulse_[a] != 0) trial.velocity += impulse_[a] * matrix_.response(contacts, active_[static_cast<std::size_t>(a)]);
+  }
+}
+
+double MoreauJean::residual_norm(const System& system) const {
+  if (active_.empty()) return free_residual_.norm();
+  VectorX residual = free_residual_;
+  for (std::size_t a = 0; a < active_.size(); ++a) {
+    residual -= impulse_[static_cast<Eigen::Index>(a)] * system.contacts().jacobian.row(active_[a]).transpose();
+  }
+  return residual.norm();
+}
+
+double MoreauJean::force_scale(const State& trial, double h) const {
+  return h * least_scale_ + momentum_change_.norm() + h * trial.internal_force.norm() + load_.norm();
+}
+
+void MoreauJean::fail(const System& system, const State& committed, double residual) const {
+  const bool contact = !active_.empty() && impulse_.size() > 0 && impulse_.maxCoeff() > 0;
+  throw ConvergenceError(fmt::format("Newton did not converge at t = {:.6g} s (relative residual {:.1e}), largest in element '{}'{}",
+                                     committed.time, residual, system.assembler.worst_element(free_residual_),
+                                     contact ? ", while pair " + system.contacts().pairs[static_cast<std::size_t>(active_[0])].name + " is in contact" : ""));
+}
+
+void MoreauJean::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
+  result.impacts.clear();
+  find_active_pairs(system, committed, h, result);
+  result.active_pairs = static_cast<int>(active_.size());
+  impulse_ = VectorX::Zero(result.active_pairs);
+  system.load_impulse(committed.time, committed.time + h, load_);
+  system.assembler.start_step(committed.history, trial.history);
+  trial.velocity = committed.velocity;
+  evaluate(system, committed, trial, h);
+  const double a = options_.theta * h;
+  if (!matrix_.ready(a)) matrix_.factor(system, system.assembler.tangent(), a);
+  double previous = std::numeric_limits<double>::infinity();
+  for (result.newton_iterations = 1;; ++result.newton_iterations) {
+    update_velocity(system, trial, result);
+    evaluate(system, committed, trial, h);
+    const double residual = residual_norm(system), scale = force_scale(trial, h);
+    result.residual = residual / scale;
+    if (residual <= options_.newton_tolerance * scale) break;
+    if (!std::isfinite(residual) || result.newton_iterations >= options_.max_newton) fail(system, committed, result.residual);
+    if (!system.linear() && residual > slow_reduction * previous) matrix_.factor(system, system.assembler.tangent(), a);
+    previous = residual;
+  }
+  trial.time = committed.time + h;
+  report(system, committed, trial, h, result);
+}
+
+// Impacts and the energy of the step (theory.md, "Energy balance"): v_theta' R = 0 split into its terms, the part of the
+// inertia, internal and contact forces that theta > 1/2 dissipates apart.
+void MoreauJean::report(const System& system, const State& committed, State& trial, double h, StepResult& result) const {
+  const Contacts& contacts = system.contacts();
+  const VectorX velocity_change = trial.velocity - committed.velocity;
+  const VectorX displacement_change = h * mid_velocity_;
+  const VectorX force_change = trial.internal_force - committed.internal_force;
+  result.strain = 0.5 * displacement_change.dot(committed.internal_force + trial.internal_force);
+  result.input = load_.dot(mid_velocity_);
+  result.numerical = velocity_change.dot(momentum_change_) + force_change.dot(displacement_change);
+  VectorX damping_force = VectorX::Zero(mid_velocity_.size());
+  system.damping.add_force(system.assembler.blocks(), h, mid_velocity_, damping_force);
+  result.damping = damping_force.dot(mid_velocity_);
+  result.contact = 0;
+  trial.impulse.setZero(contacts.size());
+  for (std::size_t k = 0; k < active_.size(); ++k) {
+    const double p = impulse_[static_cast<Eigen::Index>(k)];
+    if (p <= 0) continue;
+    const int pair = active_[k];
+    const double before = rate_[pair], after = contacts.jacobian.row(pair).dot(trial.velocity);
+    result.contact -= 0.5 * p * (before + after);
+    result.numerical -= p * (after - before);
+    trial.impulse[pair] = p;
+    result.impacts.push_back({trial.time, pair, -before, p, before, after});
+  }
+  result.numerical *= options_.theta - 0.5;
+}
+
+Scheme::ModeResponse MoreauJean::mode_response(double w, double xi, double h) const {
+  if (w == 0) return {0, 0};
+  const double theta = options_.theta, c = 2 * xi * w, k = w * w;
+  const double J = 1 + h * theta * c + h * h * theta * theta * k;
+  // v+ = from_v v + from_q q, q+ = q + h ((1 - theta) v + theta v+)
+  const double from_v = (1 - h * (1 - theta) * c - h * h * theta * (1 - theta) * k) / J, from_q = -h * k / J;
+  const double q_q = 1 + h * theta * from_q, q_v = h * (1 - theta) + h * theta * from_v;
+  const double half_trace = 0.5 * (q_q + from_v), determinant = q_q * from_v - q_v * from_q;
+  const std::complex<double> root = std::sqrt(std::complex<double>(half_trace * half_trace - determinant, 0));
+  const std::complex<double> eigenvalue = half_trace + root;
+  const std::complex<double> exponent = std::log(eigenvalue) / h;
+  return {-exponent.real() / std::abs(exponent), std::abs(exponent)};
+}
+
+}  // namespace nsframe

@@ -1,0 +1,50 @@
+// The interface of time-stepping schemes. A new scheme is one file with a class derived from Scheme, one line in
+// schemes.cpp and one test.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "assembly/system.hpp"
+#include "models/analysis.hpp"
+#include "models/results.hpp"
+
+namespace nsframe {
+
+// What one accepted step did.
+struct StepResult {
+  int newton_iterations = 0;
+  int active_pairs = 0;
+  double residual = 0;               // relative
+  double complementarity_error = 0;
+  double least_gap = 0;              // at the start of the step [m]
+  std::vector<Impact> impacts;
+  // increments over the step [J]; kinetic and strain energy are those of Energy
+  double strain = 0, damping = 0, contact = 0, numerical = 0, input = 0;
+};
+
+class Scheme {
+ public:
+  virtual ~Scheme() = default;
+  virtual std::string name() const = 0;
+
+  // Advances from `committed` by `h` [s] into `trial` (arrays of the right size, contents arbitrary). `committed` is
+  // not changed, so a step that throws ConvergenceError has nothing to undo.
+  virtual void step(System& system, const State& committed, State& trial, double h, StepResult& result) = 0;
+
+  // Damping ratio and circular frequency with which the scheme moves a free mode of circular frequency `w` [rad/s] and
+  // damping ratio `xi` at step `h` (exact, from the amplification matrix).
+  struct ModeResponse {
+    double damping_ratio, circular_frequency;
+  };
+  virtual ModeResponse mode_response(double w, double xi, double h) const = 0;
+
+  virtual long factorizations() const = 0;
+};
+
+// The scheme of that name. Throws InputError for an unknown one.
+std::unique_ptr<Scheme> make_scheme(const AnalysisOptions& options, const System& system);
+std::vector<std::string> scheme_names();
+
+}  // namespace nsframe

@@ -1,0 +1,39 @@
+#include <fmt/format.h>
+
+#include <functional>
+#include <map>
+
+#include "base/errors.hpp"
+#include "integrators/moreau_jean.hpp"
+#include "integrators/scheme.hpp"
+
+namespace nsframe {
+
+namespace {
+
+using Factory = std::function<std::unique_ptr<Scheme>(const AnalysisOptions&, const System&)>;
+
+const std::map<std::string, Factory>& registry() {
+  static const std::map<std::string, Factory> schemes{
+      {"moreau-jean", [](const AnalysisOptions& options, const System& system) { return std::make_unique<MoreauJean>(options, system); }},
+  };
+  return schemes;
+}
+
+}  // namespace
+
+std::vector<std::string> scheme_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : registry()) names.push_back(entry.first);
+  return names;
+}
+
+std::unique_ptr<Scheme> make_scheme(const AnalysisOptions& options, const System& system) {
+  const auto found = registry().find(options.scheme);
+  if (found == registry().end()) {
+    throw InputError(fmt::format("error: scheme '{}' is not known{}", options.scheme, did_you_mean(options.scheme, scheme_names())));
+  }
+  return found->second(options, system);
+}
+
+}  // namespace nsframe

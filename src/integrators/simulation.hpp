@@ -1,0 +1,39 @@
+// From a model to results: stability check, static loads, modes, damping, time history, summary.
+#pragma once
+
+#include "assembly/damping.hpp"
+#include "integrators/time_history.hpp"
+
+namespace nsframe {
+
+class Simulation {
+ public:
+  // Checks the model, finds the static equilibrium under gravity and pretension, the modes there, and the damping.
+  // Throws InputError (unstable parts, unknown modes, impossible options) or ConvergenceError.
+  Simulation(const Model& model, const AnalysisOptions& options, int modes = 12);
+
+  // Runs the time history with the options' duration (or that of the longest motion), from the initial state.
+  Summary run(const std::vector<Observer*>& observers);
+
+  System& system() { return system_; }
+  const std::vector<StructureModes>& modes() const { return modes_; }
+  const SparseMatrix& initial_stiffness() const { return stiffness_; }
+  State& state() { return state_; }
+  double duration() const;
+  // What of a summary is known before the run: sizes, frequencies, numerical damping.
+  Summary outline() const;
+
+ private:
+  void find_initial_state();
+
+  const Model& model_;
+  AnalysisOptions options_;
+  System system_;
+  State state_;
+  SparseMatrix stiffness_;
+  std::vector<StructureModes> modes_;
+  std::unique_ptr<Scheme> scheme_;
+  double setup_seconds_ = 0;
+};
+
+}  // namespace nsframe

@@ -1,0 +1,56 @@
+// Masses on springs in a row along x, the smallest pounding models.
+#pragma once
+
+#include <fmt/format.h>
+
+#include "models/model.hpp"
+
+namespace nsframe::test {
+
+struct Oscillator {
+  double mass, stiffness, damping_ratio, displacement = 0, velocity = 0;  // [kg], [N/m], [-], [m], [m/s]
+};
+
+// One structure "s<i>" an oscillator, with one node "1" that is free in x only.
+inline StructureDescription oscillator(int index, const Oscillator& o) {
+  StructureDescription s;
+  s.name = fmt::format("s{}", index);
+  s.nodes.push_back({"1", {}, Vector3(index, 0, 0)});
+  s.supports.push_back({{"1", {}}, {false, true, true, true, true, true}});
+  s.masses.push_back({{"1", {}}, Vector3::Constant(o.mass), Vector3::Zero()});
+  s.may_move_freely = o.stiffness == 0;
+  if (o.stiffness > 0) {
+    SpringDescription spring;
+    spring.id = "k";
+    spring.node_i = {"1", {}};
+    spring.stiffness[0] = o.stiffness;
+    s.springs.push_back(spring);
+  }
+  if (o.damping_ratio > 0) {
+    s.damping.kind = DampingKind::modal;
+    s.damping.ratios = {o.damping_ratio};
+  }
+  if (o.displacement != 0) s.initial_displacements.push_back({{"1", {}}, 0, o.displacement});
+  if (o.velocity != 0) s.initial_velocities.push_back({{"1", {}}, 0, o.velocity});
+  return s;
+}
+
+inline ContactDescription contact_of(int a, int b, double gap, double restitution) {
+  ContactDescription c;
+  c.kind = ContactKind::nodes;
+  c.a = {fmt::format("s{}.1", a), {}};
+  if (b >= 0) c.b = Reference{fmt::format("s{}.1", b), {}};
+  c.gap = {gap};
+  c.restitution = restitution;
+  return c;
+}
+
+// Keeps displacement and velocity of all free DOFs at every step.
+class Recorder : public Observer {
+ public:
+  std::vector<State> states;
+  void start(const Model&, const State& state) override { states.push_back(state); }
+  void step(const State&, const State& after, const StepReport&, const Energy&) override { states.push_back(after); }
+};
+
+}  // namespace nsframe::test

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# From a fresh Debian 12 machine to a result: packages, build, run of examples/two_story.
+#   tools/quickstart.sh [EXAMPLE]                    default: two_story
+set -euo pipefail
+cd "$(dirname "$0")/.."
+
+example=${1:-two_story}
+scene=examples/$example/scene.toml
+results=results/$example
+if [ ! -f "$scene" ]; then
+  echo "quickstart.sh: no example '$example'; there are: $(cd examples && ls -d -- */ | tr -d / | tr '\n' ' ')" >&2
+  exit 2
+fi
+
+tools/packages.sh program
+echo "Building nsframe (build/) ..."
+cmake --preset release -DNSFRAME_TESTS=OFF > /dev/null
+cmake --build build --target nsframe --parallel "$(nproc)"
+echo "Running $scene ..."
+build/nsframe run "$scene" -o "$results"
+
+echo
+echo "Results of $example:"
+echo "  $results/frames.pvd     open in ParaView (File > Open, Apply; then Warp By Vector)"
+echo "  $results/summary.json   impacts, peaks, energy, numerical damping"
+echo "  $results/results.h5     histories, for h5py or xarray"
