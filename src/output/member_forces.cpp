@@ -20,8 +20,10 @@ const Vector12& EndForces::evaluate(const Model& model, std::size_t group, int e
   const auto history_size =
       static_cast<std::size_t>(elements.history_begin(elements.size()) - elements.history_begin(element));
   if (trial_.size() < history_size) trial_.resize(history_size);
-  elements.respond(element, element_displacement(elements, element, full_displacement),
-                   element_history(model, group, element, state), trial_.data(), force_, nullptr);
+  const double* committed = element_history(model, group, element, state);
+  elements.start_step(element, committed, trial_.data());
+  elements.respond(element, element_displacement(elements, element, full_displacement), committed, trial_.data(),
+                   force_, nullptr);
   const Matrix3 axes = elements.shape(element).axes;
   for (Eigen::Index block = 0; block < 12; block += 3) force_.segment<3>(block) = (axes * force_.segment<3>(block)).eval();
   return force_;

@@ -95,13 +95,13 @@ void put_peaks(Buffer& out, const Summary& summary) {
   std::stable_sort(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return largest(a) > largest(b); });
   const std::size_t rows = std::min<std::size_t>(peaks.size(), 12);
   line(out, "\nPeaks (largest absolute values; displacement and velocity relative to the base)");
-  line(out, "  {:<26} {:>24}  {:>10}  {:>24}  {:>8}", "node", "displacement x y z, mm", "twist, rad",
+  line(out, "  {:<24} {:>24}  {:>10}  {:>24}  {:>8}", "node", "displacement x y z, mm", "twist, rad",
        "acceleration x y z, m/s2", "v, m/s");
   for (std::size_t i = 0; i < rows; ++i) {
     const Peak& p = peaks[i];
     const Vector3 d = 1e3 * p.displacement, a = p.acceleration;
-    line(out, "  {:<26} {:>8.2f}{:>8.2f}{:>8.2f}  {:>10.5f}  {:>8.2f}{:>8.2f}{:>8.2f}  {:>8.3f}",
-         shortened(p.node, 26), d.x(), d.y(), d.z(), p.twist, a.x(), a.y(), a.z(), p.velocity.maxCoeff());
+    line(out, "  {:<24} {:>8.2f}{:>8.2f}{:>8.2f}  {:>10.5f}  {:>8.2f}{:>8.2f}{:>8.2f}  {:>8.3f}",
+         shortened(p.node, 24), d.x(), d.y(), d.z(), p.twist, a.x(), a.y(), a.z(), p.velocity.maxCoeff());
   }
   if (peaks.size() > rows) line(out, "  ... and {} more nodes with less displacement", peaks.size() - rows);
 }

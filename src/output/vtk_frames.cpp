@@ -6,7 +6,6 @@
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
@@ -21,6 +20,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 #include "base/errors.hpp"
@@ -211,10 +211,11 @@ void VtkFrames::Writer::write(const State& state) {
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToLZ4();
-  const bool written = writer->Write() == 1 && writer->GetErrorCode() == vtkErrorCode::NoError;
-  if (!written) {
-    const char* reason = vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode());
-    throw IoError(fmt::format("cannot write '{}': {}", path.string(), reason ? reason : message));
+  const bool written = writer->Write() == 1;
+  if (const unsigned long error = writer->GetErrorCode(); !written || error != 0) {
+    // VTK's codes below 20000 are those of the operating system.
+    const std::string reason = error != 0 && error < 20000 ? std::strerror(static_cast<int>(error)) : message;
+    throw IoError(fmt::format("cannot write '{}': {}", path.string(), reason));
   }
   ++frames_;
   collection_ += fmt::format("    <DataSet timestep=\"{:.9g}\" group=\"\" part=\"0\" file=\"{}\"/>\n", state.time, name);
