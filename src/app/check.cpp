@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include <map>
+
+#include "app/commands.hpp"
+
+namespace nsframe::app {
+
+namespace {
+
+void print_structure(const LoadedScene& loaded, Simulation& simulation, std::size_t index) {
+  const Structure& structure = loaded.model.structures[index];
+  const StructureModes& modes = simulation.modes()[index];
+  double mass = 0;
+  for (const int node : structure.nodes) mass += loaded.model.nodal_mass.segment<3>(6 * node).maxCoeff();
+  fmt::print("structure '{}': {} nodes, {} free DOFs, mass {:.6g} kg\n", structure.name, structure.nodes.size(),
+             structure.last_dof - structure.first_dof, mass);
+  for (int i = 0; i < std::min(6, modes.modes.size()); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    fmt::print("  mode {:<3} {:10.4f} Hz   damping {:6.3f} %   mass x {:5.1f} %  y {:5.1f} %  z {:5.1f} %\n", modes.names[at],
+               modes.modes.circular_frequency[i] / (2 * pi), 100 * modes.damping_ratio[i], 100 * modes.participation[at].x(),
+               100 * modes.participation[at].y(), 100 * modes.participation[at].z());
+  }
+}
+
+void print_contacts(const Contacts& contacts) {
+  fmt::print("contact pairs: {}\n", contacts.size());
+  for (int i = 0; i < contacts.size(); ++i) {
+    const ContactPair& pair = contacts.pairs[static_cast<std::size_t>(i)];
+    fmt::print("  {:<32} gap {:8.4f} m   e = {:.3g}   normal ({:g}, {:g}, {:g}){}\n", pair.name, contacts.initial_gap[i],
+               contacts.restitution[i], pair.normal.x(), pair.normal.y(), pair.normal.z(),
+               pair.rigid_bodies ? "" : "   at corner nodes of flexible slabs");
+  }
+}
+
+void print_solution(const LoadedScene& loaded, Simulation& simulation) {
+  const AnalysisOptions& analysis = loaded.scene.analysis;
+  fmt::print("scheme {}: theta = {:g}, gamma = {:g}, dt = {:g} s, {:g} s, {} steps\n", analysis.scheme, analysis.theta,
+             analysis.gamma, analysis.dt, simulation.duration(), std::lround(simulation.duration() / analysis.dt));
+  fmt::print("solved how: {}; contact by {}\n",
+             simulation.system().linear() ? "linear, the iteration matrix is factored once"
+                                          : "Newton-Raphson, the tangent is factored anew where it has changed too much",
+             analysis.contact_solver == ContactSolverKind::active_set ? "an exact active-set method" : "projected Gauss-Seidel");
+}
+
+}  // namespace
+
+int check(const SceneArguments& arguments) {
+  const LoadedScene loaded = load(arguments);
+  Simulation simulation(loaded.model, loaded.scene.analysis);
+  const Model& model = loaded.model;
+  fmt::print("{}\n", loaded.scene.title.empty() ? arguments.scene.string() : loaded.scene.title);
+  std::map<std::string, int> kinds;
+  int elements = 0;
+  for (const auto& group : model.groups) {
+    kinds[std::string(group->kind())] += group->size();
+    elements += group->size();
+  }
+  fmt::print("{} nodes, {} elements, {} free DOFs, {} fibers\n", model.nodes.size(), elements, model.dofs.size(),
+             simulation.system().assembler.fibers());
+  for (const auto& [kind, count] : kinds) fmt::print("  {:<24} {}\n", kind, count);
+  for (std::size_t i = 0; i < model.structures.size(); ++i) print_structure(loaded, simulation, i);
+  print_contacts(model.contacts);
+  for (const GroundMotion& motion : model.motions) {
+    double peak = 0;
+    for (const double value : motion.acceleration) peak = std::max(peak, std::abs(value));
+    fmt::print("motion '{}': {} samples, dt {:g} s, {:.3f} s, peak {:.4g} m/s2, direction ({:g}, {:g}, {:g})\n", motion.source,
+               motion.acceleration.size(), motion.dt, motion.duration(), peak, motion.direction.x(), motion.direction.y(),
+               motion.direction.z());
+  }
+  print_solution(loaded, simulation);
+  return done;
+}
+
+}  // namespace nsframe::app

@@ -1,0 +1,41 @@
+#include "app/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "base/errors.hpp"
+
+namespace nsframe::app {
+
+LoadedScene load(const SceneArguments& arguments) {
+  Diagnostics diagnostics;
+  LoadedScene loaded;
+  loaded.scene = read_scene(arguments.scene, arguments.set, diagnostics);
+  if (arguments.threads > 0) loaded.scene.analysis.threads = arguments.threads;
+  loaded.model = build_model(loaded.scene.model, diagnostics);
+  diagnostics.throw_if_any();
+  return loaded;
+}
+
+std::filesystem::path output_folder(const SceneArguments& arguments) {
+  if (!arguments.output.empty()) return arguments.output;
+  const std::filesystem::path file = std::filesystem::absolute(arguments.scene);
+  const bool in_its_folder = file.filename() == "scene.toml";
+  return std::filesystem::path("results") / (in_its_folder ? file.parent_path().filename() : file.stem());
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw IoError(fmt::format("error: cannot create folder '{}': {}", folder.string(), error.message()));
+}
+
+void write_text(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) throw IoError(fmt::format("error: cannot write '{}'", file.string()));
+}
+
+}  // namespace nsframe::app

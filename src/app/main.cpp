@@ -1,0 +1,74 @@
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <functional>
+
+#include "app/commands.hpp"
+#include "base/errors.hpp"
+
+namespace nsframe::app {
+
+namespace {
+
+CLI::App* add_command(CLI::App& program, const std::string& name, const std::string& text, SceneArguments& arguments) {
+  CLI::App* command = program.add_subcommand(name, text);
+  command->add_option("scene", arguments.scene, "scene file (TOML)")->required();
+  command->add_option("--set", arguments.set, "key=value: change a value of the scene, e.g. --set contact.restitution=0.5")
+      ->allow_extra_args(false);
+  command->add_option("--threads", arguments.threads, "threads for nonlinear elements (default: the scene's, 1)")
+      ->check(CLI::Range(1, 1024));
+  return command;
+}
+
+int guarded(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const InputError& problem) {
+    fmt::print(stderr, "{}\n", problem.what());
+    return bad_input;
+  } catch (const ConvergenceError& problem) {
+    fmt::print(stderr, "error: {}\n", problem.what());
+    return not_converged;
+  } catch (const IoError& problem) {
+    fmt::print(stderr, "{}\n", problem.what());
+    return input_output;
+  }
+}
+
+int program(int count, char** values) {
+  CLI::App program{"nsframe: pounding of 3D fiber frames by non-smooth contact dynamics"};
+  program.set_version_flag("--version", std::string("nsframe ") + NSFRAME_VERSION);
+  program.require_subcommand(1);
+  SceneArguments arguments;
+  std::function<int()> command;
+  CLI::App* run_command = add_command(program, "run", "run a scene; writes summary.json, results.h5, frames.pvd", arguments);
+  run_command->add_option("-o,--output", arguments.output, "folder of the results (default: results/<name of the scene>)");
+  run_command->add_flag("-q,--quiet", arguments.quiet, "print errors only");
+  run_command->callback([&] { command = [&] { return run(arguments); }; });
+  CLI::App* check_command = add_command(program, "check", "validate a scene and print its model", arguments);
+  check_command->callback([&] { command = [&] { return check(arguments); }; });
+  CLI::App* modes_command = add_command(program, "modes", "frequencies, damping, participation; mode shapes with -o", arguments);
+  modes_command->add_option("-o,--output", arguments.output, "folder for the mode shapes (VTK)");
+  modes_command->add_flag("--json", arguments.json, "print JSON");
+  modes_command->callback([&] { command = [&] { return modes(arguments); }; });
+  CLI::App* export_command = add_command(program, "export", "matrices (Matrix Market) and the expanded scene", arguments);
+  export_command->add_option("-o,--output", arguments.output, "folder (default: results/<name of the scene>)");
+  export_command->add_flag("-q,--quiet", arguments.quiet, "print errors only");
+  export_command->callback([&] { command = [&] { return export_matrices(arguments); }; });
+  program.add_subcommand("reference", "print the scene reference (docs/scene-reference.md)")->callback([&] {
+    command = reference;
+  });
+  try {
+    program.parse(count, values);
+  } catch (const CLI::ParseError& problem) {
+    return program.exit(problem) == 0 ? done : bad_input;
+  }
+  return guarded(command);
+}
+
+}  // namespace
+
+}  // namespace nsframe::app
+
+int main(int count, char** values) { return nsframe::app::program(count, values); }

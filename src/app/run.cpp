@@ -1,0 +1,95 @@
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "app/progress.hpp"
+#include "base/timer.hpp"
+#include "output/history_file.hpp"
+#include "output/paraview_script.hpp"
+#include "output/peaks.hpp"
+#include "output/poundings.hpp"
+#include "output/summary.hpp"
+#ifdef NSFRAME_HAS_VTK
+#include "output/vtk_frames.hpp"
+#endif
+
+namespace nsframe::app {
+
+namespace {
+
+// Pairs whose restitution acts on a corner of a flexible slab, not on the slab.
+std::vector<std::string> contact_warnings(const Model& model, const Summary& summary) {
+  bool flexible = false;
+  for (const ContactPair& pair : model.contacts.pairs) flexible = flexible || !pair.rigid_bodies;
+  std::vector<std::string> warnings;
+  if (flexible && !summary.poundings.empty()) {
+    double least = 1, most = 0;
+    for (const Pounding& pounding : summary.poundings) {
+      least = std::min(least, pounding.effective_restitution);
+      most = std::max(most, pounding.effective_restitution);
+    }
+    warnings.push_back(fmt::format("the restitution acts on corner nodes of flexible slabs, each with its share of the mass: "
+                                   "the poundings' own restitution came out between {:.2f} and {:.2f}; rigid slabs would have "
+                                   "that of the scene",
+                                   least, most));
+  }
+  return warnings;
+}
+
+void print_files(const std::filesystem::path& folder, bool frames) {
+  fmt::print("\nresults in {}:\n", folder.string());
+  if (frames) fmt::print("  frames.pvd         open in ParaView, or run: paraview --script={}\n", (folder / "open_in_paraview.py").string());
+  fmt::print("  summary.json       everything above, for programs\n");
+  fmt::print("  results.h5         histories, impacts and the complete scene (HDF5)\n");
+  fmt::print("  scene.toml         the scene with every default that was used\n");
+}
+
+}  // namespace
+
+int run(const SceneArguments& arguments) {
+  const Timer timer;
+  const LoadedScene loaded = load(arguments);
+  Simulation simulation(loaded.model, loaded.scene.analysis);
+  const double setup = timer.seconds();
+  const std::filesystem::path folder = output_folder(arguments);
+  make_folder(folder);
+  const std::string complete = write_scene(loaded.scene, folder);
+  write_text(folder / "scene.toml", complete);
+
+  PeakTracker peaks(loaded.scene.output.nodes);
+  HistoryFile history(folder / "results.h5", loaded.scene.output, complete);
+  ProgressBar progress(simulation.duration(), arguments.quiet);
+  std::vector<Observer*> observers{&peaks, &history, &progress};
+  const bool wants_frames = loaded.scene.output.frames > 0;
+#ifdef NSFRAME_HAS_VTK
+  VtkFrames frames(folder, loaded.scene.output);
+  if (wants_frames) observers.push_back(&frames);
+#else
+  if (wants_frames) throw InputError("error: output.frames: this nsframe was built without VTK; set frames = 0");
+#endif
+  Summary summary = simulation.run(observers);
+  summary.title = loaded.scene.title;
+  summary.timing.setup = setup;
+  summary.poundings = merge_impacts(summary.impacts);
+  summary.peaks = peaks.peaks();
+  summary.warnings = numerical_warnings(summary);
+  for (std::string& warning : contact_warnings(loaded.model, summary)) summary.warnings.push_back(std::move(warning));
+  write_summary(summary, folder / "summary.json");
+  if (wants_frames) {
+    double largest = 0;
+    for (const Peak& peak : summary.peaks) largest = std::max(largest, peak.displacement.maxCoeff());
+    write_text(folder / "open_in_paraview.py",
+               paraview_script(loaded.model, summary.title, visible_scale(loaded.model, largest)));
+  }
+  if (!arguments.quiet) {
+    fmt::print("{}", summary_text(summary));
+    print_files(folder, wants_frames);
+  }
+  if (!summary.completed) {
+    fmt::print(stderr, "error: stopped at t = {:.6g} s: {}\nwhat was computed until then is kept in {}\n", summary.end_time,
+               summary.stop_reason, folder.string());
+    return not_converged;
+  }
+  return done;
+}
+
+}  // namespace nsframe::app
