@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "base/errors.hpp"
 
 namespace nsframe {
@@ -29,9 +31,12 @@ Matrix3x5 force_interpolation(double x) {
   return b;
 }
 
-constexpr int max_inner_iterations = 40;
-// Section forces out of balance, relative, at which the last linear correction leaves an error of its square.
-constexpr double inner_tolerance = 1e-7;
+constexpr int max_inner_iterations = 60;
+constexpr int max_line_search = 30;
+// Section forces out of balance relative to their change over the step (the last linear correction then leaves an
+// error of about the square), and relative to the forces themselves (rounding).
+constexpr double change_tolerance = 1e-6;
+constexpr double force_tolerance = 1e-11;
 
 }  // namespace
 
@@ -47,30 +52,88 @@ void ForceBeams::initialize_history(int element, double* history) const {
     head.section_force(i) = virgin.force;
     head.section_tangent(i) = virgin.tangent;
   }
-  Vector5 deformation;
-  Matrix5 flexibility;
-  integrate(e, history, deformation, flexibility);
-  head.tangent = flexibility.inverse();
+  balance(e, Vector5::Zero(), history);
 }
 
 void ForceBeams::start_step(int, const double* committed, double* trial) const {
   std::copy_n(committed, head_size(), trial);
 }
 
-// Element flexibility, and the deformation compatible with the basic forces when the sections out of balance are
-// corrected with their tangent flexibility.
-void ForceBeams::integrate(const Element& element, const double* data, Vector5& deformation, Matrix5& flexibility) const {
-  const Head head(const_cast<double*>(data));
-  deformation.setZero();
-  flexibility.setZero();
+// Basic forces and element tangent from the linearised sections: sum w b'(e + f (b q - s)) = v.
+void ForceBeams::balance(const Element& element, const Vector5& deformation, double* data) const {
+  Head head(data);
+  Matrix5 flexibility = Matrix5::Zero();
+  Vector5 wanted = deformation;
   for (int i = 0; i < points(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     const Matrix3x5 b = force_interpolation(rule_.position[at]);
     const Matrix3 f = head.section_tangent(i).inverse();
-    const Vector3 corrected = head.section_deformation(i) + f * (b * head.force - head.section_force(i));
     const double weight = rule_.weight[at] * element.frame.length;
-    deformation += weight * (b.transpose() * corrected);
     flexibility += weight * (b.transpose() * f * b);
+    wanted -= weight * (b.transpose() * (head.section_deformation(i) - f * head.section_force(i)));
+  }
+  head.tangent = flexibility.inverse();
+  head.force = head.tangent * wanted;
+}
+
+// Moves every section by `length` times its correction and evaluates it there. Returns the slope of the strain energy
+// along the correction: the work on it of the section forces in excess of the basic forces, which do none.
+double ForceBeams::move_sections(const Element& element, const std::vector<Vector3>& start,
+                                 const std::vector<Vector3>& correction, double length, const double* committed,
+                                 double* trial) const {
+  Head head(trial);
+  double slope = 0;
+  for (int i = 0; i < points(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    head.section_deformation(i) = start[at] + length * correction[at];
+    const double* const before = committed + head_size() + i * element.section->history_size;
+    double* const after = trial + head_size() + i * element.section->history_size;
+    const SectionResponse response = nsframe::respond(*element.section, head.section_deformation(i), before, after);
+    head.section_force(i) = response.force;
+    head.section_tangent(i) = response.tangent;
+    const Vector3 excess = response.force - force_interpolation(rule_.position[at]) * head.force;
+    slope += rule_.weight[at] * element.frame.length * excess.dot(correction[at]);
+  }
+  return slope;
+}
+
+// Given v, the section deformations minimise the strain energy under sum w b' e = v, with the basic forces as
+// multipliers. Newton on that; once the constraint holds (after the first full step), corrections keep it, and a line
+// search on the energy's slope ends the circles that sharply bent laws send Newton into.
+void ForceBeams::find_sections(int element, const Vector5& deformation, const double* committed, double* trial) const {
+  const Element& e = element_at(element);
+  Head head(trial);
+  const Head before(const_cast<double*>(committed));
+  std::vector<Vector3> start(static_cast<std::size_t>(points())), correction(start.size());
+  for (int iteration = 0;; ++iteration) {
+    balance(e, deformation, trial);
+    // energies of the unbalanced, the changed and the whole section forces on the sections' flexibility
+    double unbalance = 0, change = 0, scale = 0;
+    for (int i = 0; i < points(); ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const Vector3 wanted = force_interpolation(rule_.position[at]) * head.force;
+      const Vector3 changed = wanted - before.section_force(i), out_of_balance = wanted - head.section_force(i);
+      const Matrix3 f = head.section_tangent(i).inverse();
+      start[at] = head.section_deformation(i);
+      correction[at] = f * out_of_balance;
+      const double weight = rule_.weight[at] * e.frame.length;
+      unbalance += weight * out_of_balance.dot(correction[at]);
+      change += weight * changed.dot(f * changed);
+      scale += weight * wanted.dot(f * wanted);
+    }
+    const double accepted = std::max(change_tolerance * change_tolerance * change, force_tolerance * force_tolerance * scale);
+    if (iteration > 0 && unbalance <= accepted) return;
+    if (!std::isfinite(unbalance) || iteration >= max_inner_iterations) {
+      throw ConvergenceError(fmt::format("force-based element '{}' does not find its section forces", id(element)));
+    }
+    double slope = move_sections(e, start, correction, 1.0, committed, trial);
+    double low = 0, high = 1;
+    if (iteration == 0 || slope <= 0.5 * unbalance) continue;
+    for (int k = 0; k < max_line_search && std::abs(slope) > 0.5 * unbalance; ++k) {
+      const double middle = 0.5 * (low + high);
+      slope = move_sections(e, start, correction, middle, committed, trial);
+      (slope > 0 ? high : low) = middle;
+    }
   }
 }
 
@@ -78,36 +141,8 @@ void ForceBeams::respond(int element, const Vector12& displacement, const double
                          Vector12& force, Matrix12* tangent) const {
   const Element& e = element_at(element);
   const Vector6 v = e.frame.compatibility * displacement;
-  Head head(trial);
-  Vector5 compatible;
-  Matrix5 flexibility;
-  integrate(e, trial, compatible, flexibility);
-  head.force += head.tangent * (v.head<5>() - compatible);
-  for (int iteration = 0;; ++iteration) {
-    double unbalance = 0, scale = 0;
-    for (int i = 0; i < points(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const Vector3 wanted = force_interpolation(rule_.position[at]) * head.force;
-      head.section_deformation(i) += head.section_tangent(i).inverse() * (wanted - head.section_force(i));
-      const SectionResponse response =
-          nsframe::respond(*e.section, head.section_deformation(i), section_history(element, committed, i),
-                           section_history(element, trial, i));
-      head.section_force(i) = response.force;
-      head.section_tangent(i) = response.tangent;
-      // energies of the unbalanced and of the whole section force on the section's flexibility
-      const Vector3 out_of_balance = wanted - response.force;
-      const Matrix3 f = response.tangent.inverse();
-      unbalance += out_of_balance.dot(f * out_of_balance);
-      scale += wanted.dot(f * wanted);
-    }
-    integrate(e, trial, compatible, flexibility);
-    head.tangent = flexibility.inverse();
-    head.force += head.tangent * (v.head<5>() - compatible);
-    if (!head.force.allFinite() || iteration >= max_inner_iterations) {
-      throw ConvergenceError(fmt::format("force-based element '{}' does not find its section forces", id(element)));
-    }
-    if (unbalance <= inner_tolerance * inner_tolerance * scale) break;
-  }
+  find_sections(element, v.head<5>(), committed, trial);
+  const Head head(trial);
   const double torsion = e.section->torsion_stiffness / e.frame.length;
   Vector6 basic_force;
   basic_force << head.force, torsion * v[5];

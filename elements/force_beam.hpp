@@ -21,7 +21,10 @@ class ForceBeams : public FiberBeams {
   int head_size() const override { return 30 + 15 * points(); }
 
  private:
-  void integrate(const Element& element, const double* head, Vector5& deformation, Matrix5& flexibility) const;
+  void balance(const Element& element, const Vector5& deformation, double* data) const;
+  double move_sections(const Element& element, const std::vector<Vector3>& start, const std::vector<Vector3>& correction,
+                       double length, const double* committed, double* trial) const;
+  void find_sections(int element, const Vector5& deformation, const double* committed, double* trial) const;
 };
 
 }  // namespace nsframe

@@ -1,0 +1,303 @@
+#include "models/story_frame.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "base/errors.hpp"
+
+namespace nsframe {
+
+namespace {
+
+template <class T>
+const T& at_story(const std::vector<T>& values, int story) {
+  return values.size() == 1 ? values.front() : values[static_cast<std::size_t>(story - 1)];
+}
+
+// One column line, or the centre of a floor.
+struct PlanPoint {
+  int number = 0;             // i of the node id
+  double x = 0, y = 0;        // [m] from the origin
+  double tributary_area = 0;  // [m2]; 0 at a centre without column
+  bool column = true;
+};
+
+// Lines of the grid along one axis, and the width of plan that each carries.
+struct GridLines {
+  std::vector<double> position, width;  // [m]
+  int count() const { return static_cast<int>(position.size()); }
+  double length() const { return position.back(); }
+};
+
+GridLines grid_lines(const std::vector<double>& plan, int bays) {
+  std::vector<double> spans = plan;
+  if (plan.size() == 1) spans.assign(static_cast<std::size_t>(bays), plan.front() / bays);
+  GridLines lines{{0.0}, {}};
+  for (const double span : spans) lines.position.push_back(lines.position.back() + span);
+  if (plan.size() == 1) lines.position.back() = plan.front();
+  for (std::size_t i = 0; i < lines.position.size(); ++i) {
+    const double before = i > 0 ? spans[i - 1] : 0, after = i < spans.size() ? spans[i] : 0;
+    lines.width.push_back((before + after) / 2);
+  }
+  return lines;
+}
+
+class Expansion {
+ public:
+  explicit Expansion(const StoryFrame& frame) : frame_(frame) {
+    out_.name = frame.name;
+    out_.at = frame.at;
+    out_.damping = frame.damping;
+    x_ = grid_lines(frame.plan[0], frame.bays[0]);
+    y_ = grid_lines(frame.plan[1], frame.bays[1]);
+    lay_out_plan();
+    stride_ = points_.size() <= 9 ? 10 : points_.size() <= 99 ? 100 : 1000;
+  }
+
+  StructureDescription run() {
+    add_nodes();
+    add_base();
+    for (int story = 1; story <= frame_.stories; ++story) {
+      add_columns(story);
+      add_beams(story);
+      add_slab(story);
+      add_braces(story);
+      add_masses(story);
+    }
+    std::stable_sort(out_.elements.begin(), out_.elements.end(), [](const auto& a, const auto& b) {
+      return (a.kind == ElementKind::truss) + 2 * (a.kind == ElementKind::cable) <
+             (b.kind == ElementKind::truss) + 2 * (b.kind == ElementKind::cable);
+    });
+    return std::move(out_);
+  }
+
+ private:
+  static constexpr int centre_number = 5;
+
+  void lay_out_plan() {
+    const int nx = x_.count(), ny = y_.count();
+    grid_.assign(static_cast<std::size_t>(nx * ny), 0);
+    const double cx = x_.length() / 2, cy = y_.length() / 2;
+    const double tolerance = 1e-9 * (cx + cy);
+    int next = centre_number + 1;
+    bool centre_has_column = false;
+    for (int iy = 0; iy < ny; ++iy) {
+      for (int ix = 0; ix < nx; ++ix) {
+        PlanPoint point{0, x_.position[std::size_t(ix)], y_.position[std::size_t(iy)],
+                        x_.width[std::size_t(ix)] * y_.width[std::size_t(iy)], true};
+        const bool low_x = ix == 0, high_x = ix == nx - 1, low_y = iy == 0, high_y = iy == ny - 1;
+        if ((low_x || high_x) && (low_y || high_y)) {
+          point.number = low_y ? (low_x ? 1 : 2) : (low_x ? 4 : 3);
+        } else if (std::abs(point.x - cx) + std::abs(point.y - cy) < tolerance) {
+          point.number = centre_number;
+          centre_has_column = true;
+        } else {
+          point.number = next++;
+        }
+        grid_[std::size_t(iy * nx + ix)] = point.number;
+        points_.push_back(point);
+      }
+    }
+    if (!centre_has_column) points_.push_back({centre_number, cx, cy, 0, false});
+    std::sort(points_.begin(), points_.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+  }
+
+  int grid(int ix, int iy) const { return grid_[std::size_t(iy * x_.count() + ix)]; }
+
+  Reference node(int floor, int number) const { return {std::to_string(floor * stride_ + number), frame_.at}; }
+
+  void add_nodes() {
+    double elevation = 0;
+    for (int floor = 0; floor <= frame_.stories; ++floor) {
+      if (floor > 0) elevation += at_story(frame_.height, floor);
+      for (const PlanPoint& point : points_) {
+        if (floor == 0 && !point.column) continue;
+        const Vector3 position = frame_.origin + Vector3(point.x, point.y, elevation);
+        out_.nodes.push_back({node(floor, point.number).name, frame_.at, position});
+      }
+    }
+  }
+
+  void add_base() {
+    const bool clamped = frame_.base.kind == BaseKind::fixed, spring = frame_.base.kind == BaseKind::spring;
+    for (const PlanPoint& point : points_) {
+      if (!point.column) continue;
+      const Reference foot = node(0, point.number);
+      out_.supports.push_back({foot, {true, true, true, clamped, clamped, clamped || spring}});
+      if (!spring) continue;
+      SpringDescription rotation;
+      rotation.id = "base-" + foot.name;
+      rotation.at = frame_.at;
+      rotation.node_i = foot;
+      rotation.stiffness[3] = rotation.stiffness[4] = frame_.base.stiffness;
+      out_.springs.push_back(rotation);
+    }
+  }
+
+  ElementDescription& add_element(ElementKind kind, Reference i, Reference j) {
+    ElementDescription element;
+    element.id = std::to_string(++last_element_);
+    element.at = frame_.at;
+    element.kind = kind;
+    element.node_i = std::move(i);
+    element.node_j = std::move(j);
+    return out_.elements.emplace_back(std::move(element));
+  }
+
+  ElementDescription& add_member(const FrameMembers& members, int story, Reference i, Reference j) {
+    ElementDescription& element = add_element(element_kind(members.element), std::move(i), std::move(j));
+    element.section = at_story(members.section, story);
+    element.points = members.points;
+    element.geometry = members.geometry;
+    return element;
+  }
+
+  void add_columns(int story) {
+    for (const PlanPoint& point : points_) {
+      if (!point.column) continue;
+      ElementDescription& column =
+          add_member(frame_.columns, story, node(story - 1, point.number), node(story, point.number));
+      // The default has local y along global X; with the local z against X, local y is along Y.
+      if (frame_.columns.depth == PlanAxis::y) column.orientation = Vector3(-1, 0, 0);
+    }
+  }
+
+  // Lines along x by rising y, then lines along y by falling x: around the plan when there is one bay.
+  void add_beams(int story) {
+    if (!frame_.beams) return;
+    for (int iy = 0; iy < y_.count(); ++iy)
+      for (int ix = 0; ix + 1 < x_.count(); ++ix)
+        add_member(*frame_.beams, story, node(story, grid(ix, iy)), node(story, grid(ix + 1, iy)));
+    for (int ix = x_.count() - 1; ix >= 0; --ix)
+      for (int iy = 0; iy + 1 < y_.count(); ++iy)
+        add_member(*frame_.beams, story, node(story, grid(ix, iy)), node(story, grid(ix, iy + 1)));
+  }
+
+  void add_slab(int story) {
+    const Reference centre = node(story, centre_number);
+    SlabDescription slab;
+    slab.id = "slab-" + std::to_string(story);
+    slab.at = frame_.at;
+    for (int corner = 1; corner <= 4; ++corner) slab.corners.push_back(node(story, corner));
+    slab.center = centre;
+    slab.thickness = frame_.slab.thickness;
+    slab.rigid = frame_.slab.kind != SlabKind::links;
+    out_.slabs.push_back(slab);
+
+    std::vector<Reference> around;
+    for (const PlanPoint& point : points_)
+      if (point.number != centre_number) around.push_back(node(story, point.number));
+    if (frame_.slab.kind == SlabKind::links) {
+      for (const Reference& corner : around)
+        add_element(ElementKind::elastic_beam, centre, corner).section = frame_.slab.section;
+      return;
+    }
+    const ConstraintKind kind =
+        frame_.slab.kind == SlabKind::rigid ? ConstraintKind::rigid_body : ConstraintKind::diaphragm;
+    out_.constraints.push_back({frame_.at, kind, centre, around});
+  }
+
+  void add_braces(int story) {
+    if (!frame_.braces) return;
+    const FrameBraces& braces = *frame_.braces;
+    const auto cross = [&](int i, int j) {
+      for (const auto& [low, high] : {std::pair{i, j}, std::pair{j, i}}) {
+        ElementDescription& brace = add_element(element_kind(braces.kind), node(story - 1, low), node(story, high));
+        brace.material = braces.material;
+        brace.area = at_story(braces.area, story);
+        brace.pretension = braces.pretension;
+      }
+    };
+    for (const BracePlane plane : braces.planes) {
+      const bool along_y = plane == BracePlane::x_low || plane == BracePlane::x_high;
+      const int ix = plane == BracePlane::x_high ? x_.count() - 1 : 0,
+                iy = plane == BracePlane::y_high ? y_.count() - 1 : 0;
+      if (along_y)
+        for (int bay = 0; bay + 1 < y_.count(); ++bay) cross(grid(ix, bay), grid(ix, bay + 1));
+      else
+        for (int bay = 0; bay + 1 < x_.count(); ++bay) cross(grid(bay, iy), grid(bay + 1, iy));
+    }
+  }
+
+  void add_masses(int story) {
+    if (frame_.mass.floor.empty() && frame_.mass.centre_inertia.empty()) return;
+    const double total = frame_.mass.floor.empty() ? 0 : at_story(frame_.mass.floor, story);
+    const double area = x_.length() * y_.length(), centre = frame_.mass.centre_share;
+    for (const PlanPoint& point : points_) {
+      MassDescription mass;
+      mass.node = node(story, point.number);
+      const double horizontal = point.number == centre_number  ? total * centre
+                                : point.number < centre_number ? total * (1 - centre) / 4
+                                                               : 0;
+      mass.mass = Vector3(horizontal, horizontal, total * point.tributary_area / area);
+      if (point.number == centre_number && !frame_.mass.centre_inertia.empty())
+        mass.inertia.z() = at_story(frame_.mass.centre_inertia, story);
+      out_.masses.push_back(mass);
+    }
+  }
+
+  const StoryFrame& frame_;
+  StructureDescription out_;
+  GridLines x_, y_;
+  std::vector<PlanPoint> points_;  // by rising number
+  std::vector<int> grid_;          // number of the column line (ix, iy) at iy * x_.count() + ix
+  int stride_ = 10;
+  int last_element_ = 0;
+};
+
+void check_list(std::vector<std::string>& faults, std::string_view what, std::size_t size, int stories) {
+  if (size > 1 && size != static_cast<std::size_t>(stories))
+    faults.push_back(
+        fmt::format("{} has {} values, must have one, or one for each of the {} stories", what, size, stories));
+}
+
+}  // namespace
+
+ElementKind element_kind(BeamKind kind) {
+  switch (kind) {
+    case BeamKind::displacement:
+      return ElementKind::displacement_beam;
+    case BeamKind::force_based:
+      return ElementKind::force_beam;
+    default:
+      return ElementKind::elastic_beam;
+  }
+}
+
+ElementKind element_kind(BarKind kind) { return kind == BarKind::cable ? ElementKind::cable : ElementKind::truss; }
+
+std::vector<std::string> faults(const StoryFrame& frame) {
+  std::vector<std::string> out;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const char name = axis == 0 ? 'x' : 'y';
+    if (frame.plan[axis].empty()) out.push_back(fmt::format("plan has no length along {}", name));
+    if (frame.plan[axis].size() > 1 && frame.bays[axis] != 1 && frame.bays[axis] != int(frame.plan[axis].size()))
+      out.push_back(
+          fmt::format("plan has {} spans along {}, bays says {}", frame.plan[axis].size(), name, frame.bays[axis]));
+  }
+  if (frame.height.empty()) out.push_back("height is missing");
+  check_list(out, "height", frame.height.size(), frame.stories);
+  check_list(out, "columns.section", frame.columns.section.size(), frame.stories);
+  if (frame.beams) check_list(out, "beams.section", frame.beams->section.size(), frame.stories);
+  if (frame.braces) check_list(out, "braces.area", frame.braces->area.size(), frame.stories);
+  check_list(out, "floor_mass", frame.mass.floor.size(), frame.stories);
+  check_list(out, "centre_inertia", frame.mass.centre_inertia.size(), frame.stories);
+  if (frame.columns.section.empty()) out.push_back("columns have no section");
+  if (frame.beams && frame.beams->section.empty()) out.push_back("beams have no section");
+  if (frame.braces && frame.braces->area.empty()) out.push_back("braces have no area");
+  if (frame.slab.kind == SlabKind::links && frame.slab.section.name.empty())
+    out.push_back("slab of links needs a section");
+  if (frame.base.kind == BaseKind::spring && frame.base.stiffness <= 0) out.push_back("base springs need a stiffness");
+  return out;
+}
+
+StructureDescription expand(const StoryFrame& frame) {
+  if (const auto found = faults(frame); !found.empty()) throw InputError(frame.name + ": " + found.front());
+  return Expansion(frame).run();
+}
+
+}  // namespace nsframe

@@ -1,0 +1,181 @@
+#include "output/history_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include "base/diagnostics.hpp"
+#include "base/errors.hpp"
+#include "output/files.hpp"
+#include "output/hdf5_file.hpp"
+#include "output/history_parts.hpp"
+#include "output/poundings.hpp"
+#include "output/sample_clock.hpp"
+
+namespace nsframe {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::size_t block_bytes = 1U << 18U;  // of the widest data set
+constexpr double flush_interval = 5;            // [s] of wall time, for runs with slow steps
+
+const std::vector<std::string> known_histories{"nodes", "contacts", "elements", "sections", "energy", "ground"};
+
+void check_names(const std::vector<std::string>& histories) {
+  std::string errors;
+  for (const auto& name : histories) {
+    if (std::find(known_histories.begin(), known_histories.end(), name) != known_histories.end()) continue;
+    errors += fmt::format("{}output.history: unknown history '{}'{}", errors.empty() ? "" : "\n", name,
+                          did_you_mean(name, known_histories));
+  }
+  if (!errors.empty()) throw InputError(errors);
+}
+
+}  // namespace
+
+class HistoryFile::Writer {
+ public:
+  Writer(std::filesystem::path path, const OutputOptions& options, std::string scene_text)
+      : path_(std::move(path)), options_(options), scene_(std::move(scene_text)), clock_(options.history_rate) {
+    check_names(options_.history);
+  }
+  ~Writer();
+
+  void start(const Model& model, const State& state);
+  void step(const State& before, const State& after, const Energy& energy);
+  void impact(const Impact& impact) {
+    impacts_.push_back(impact);
+    if (impact_rows_) impact_rows_->add(impact);
+  }
+  void finish();
+
+  double seconds() const { return seconds_; }
+
+ private:
+  bool asked(const char* name) const {
+    return std::find(options_.history.begin(), options_.history.end(), name) != options_.history.end();
+  }
+  void add_row(const Sample& sample);
+  void write_block();
+
+  std::filesystem::path path_;
+  OutputOptions options_;
+  std::string scene_;
+  SampleClock clock_;
+  const Model* model_ = nullptr;
+  std::optional<Hdf5File> file_;       // before the series, which refer to it
+  std::optional<Hdf5Series<double>> time_;
+  std::vector<std::unique_ptr<HistoryPart>> parts_;
+  std::unique_ptr<ImpactRows> impact_rows_;
+  std::vector<Impact> impacts_;
+  VectorX impulse_;                    // since the last row [N s]
+  Energy energy_;
+  std::size_t rows_ = 0, block_ = 1;   // rows buffered, and buffered at most
+  Clock::time_point last_write_;
+  double seconds_ = 0;
+};
+
+HistoryFile::Writer::~Writer() {
+  // The run was given up by an exception: keep what is still buffered, if the disk lets us.
+  if (!file_ || !impact_rows_) return;
+  try {
+    write_block();
+  } catch (const IoError&) {
+  }
+}
+
+void HistoryFile::Writer::start(const Model& model, const State& state) {
+  model_ = &model;
+  make_folder(path_.parent_path());
+  file_.emplace(path_);
+  file_->set_attribute("/", "program", "nsframe");
+  file_->set_attribute("/", "version", NSFRAME_VERSION);
+  file_->set_attribute("/", "finished", 0.0);
+  file_->write_text("/scene", scene_);
+
+  if (asked("nodes")) parts_.push_back(node_history(model, options_.nodes));
+  if (asked("elements")) parts_.push_back(member_history(model));
+  if (asked("sections")) parts_.push_back(section_history(model, state));
+  if (asked("contacts")) parts_.push_back(contact_history(model));
+  if (asked("energy")) parts_.push_back(energy_history());
+  if (asked("ground")) parts_.push_back(ground_history(model));
+  std::size_t widest = sizeof(double);
+  for (const auto& part : parts_) widest = std::max(widest, sizeof(double) * part->widest_row());
+  block_ = std::clamp<std::size_t>(block_bytes / widest, 16, 1024);
+
+  time_.emplace(*file_, "/time", std::vector<hsize_t>{}, block_);
+  file_->set_attribute("/time", "units", "s");
+  for (auto& part : parts_) part->create(*file_, block_);
+  if (!asked("energy")) file_->make_group("/energy");
+  impact_rows_ = std::make_unique<ImpactRows>(*file_, model.contacts);
+  impulse_ = VectorX::Zero(model.contacts.size());
+  clock_.start(state.time);
+  energy_.initial = energy_.kinetic = 0.5 * state.velocity.dot(model.mass * state.velocity);
+  if (!parts_.empty()) add_row({state, state, 0, energy_, impulse_});
+  last_write_ = Clock::now();
+  write_block();
+  file_->publish();
+}
+
+void HistoryFile::Writer::step(const State& before, const State& after, const Energy& energy) {
+  energy_ = energy;
+  if (parts_.empty()) return;
+  if (impulse_.size() > 0 && after.impulse.size() == impulse_.size()) impulse_ += after.impulse;
+  if (!clock_.due(before.time, after.time)) return;
+  add_row({before, after, after.time - before.time, energy, impulse_});
+  impulse_.setZero();
+  const bool waited = std::chrono::duration<double>(Clock::now() - last_write_).count() > flush_interval;
+  if (rows_ >= block_ || waited) write_block();
+}
+
+void HistoryFile::Writer::add_row(const Sample& sample) {
+  *time_->add_row() = sample.after.time;
+  for (auto& part : parts_) part->add_row(*model_, sample);
+  ++rows_;
+}
+
+void HistoryFile::Writer::write_block() {
+  const auto begin = Clock::now();
+  time_->write();
+  for (auto& part : parts_) part->write();
+  impact_rows_->write();
+  file_->flush();
+  rows_ = 0;
+  last_write_ = Clock::now();
+  seconds_ += std::chrono::duration<double>(last_write_ - begin).count();
+}
+
+void HistoryFile::Writer::finish() {
+  if (!file_) return;
+  write_block();
+  write_poundings(*file_, merge_impacts(impacts_));
+  write_final_energy(*file_, energy_);
+  mark_finished(*file_);
+  parts_.clear();
+  impact_rows_.reset();
+  time_.reset();
+  file_->close();
+  file_.reset();
+}
+
+HistoryFile::HistoryFile(std::filesystem::path path, const OutputOptions& options, std::string scene_text)
+    : writer_(std::make_unique<Writer>(std::move(path), options, std::move(scene_text))) {}
+
+HistoryFile::~HistoryFile() = default;
+
+void HistoryFile::start(const Model& model, const State& state) { writer_->start(model, state); }
+
+void HistoryFile::step(const State& before, const State& after, const StepReport&, const Energy& energy) {
+  writer_->step(before, after, energy);
+}
+
+void HistoryFile::impact(const Impact& impact) { writer_->impact(impact); }
+
+void HistoryFile::finish() { writer_->finish(); }
+
+double HistoryFile::seconds() const { return writer_->seconds(); }
+
+}  // namespace nsframe

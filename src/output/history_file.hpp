@@ -1,0 +1,44 @@
+// results.h5: the histories that a scene asks for, impacts and poundings, the final energies, and the scene itself.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "models/analysis.hpp"
+#include "models/results.hpp"
+
+namespace nsframe {
+
+// Layout (n rows of time, the first is the initial state; units and component names are attributes):
+//   /time (n)
+//   /nodes/id (m); displacement, velocity, acceleration_absolute (n, m, 6)
+//   /elements/<kind>/id (k); forces (n, k, 12) in local axes, acting on the ends
+//   /sections/<kind>/element (p), position (p); deformation, force (n, p, 3); peak_strain_ratio, yielded (n, p)
+//   /contacts/pair (c); gap, impulse (n, c), the impulse since the row before
+//   /energy/kinetic, strain, damping, contact, numerical, input, balance_error (n); final values as attributes
+//   /ground/acceleration, velocity (n, 3)
+//   /impacts/time, pair, approach_velocity, impulse, rate_before, rate_after (i)
+//   /poundings/time, duration, pair, approach_velocity, impulse, effective_restitution, impacts
+//   /scene, the complete scene as text; attributes program, version, finished
+// Only histories named in OutputOptions::history have rows; without any, a step costs nothing.
+// Rows are written in blocks and flushed, so that after a crash everything but the last block is readable.
+class HistoryFile : public Observer {
+ public:
+  HistoryFile(std::filesystem::path path, const OutputOptions& options, std::string scene_text);
+  ~HistoryFile() override;
+
+  // Creates the file; an earlier one at `path` is replaced here, not before.
+  void start(const Model& model, const State& state) override;
+  void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
+  void impact(const Impact& impact) override;
+  void finish() override;
+
+  double seconds() const;  // spent writing blocks
+
+ private:
+  class Writer;
+  std::unique_ptr<Writer> writer_;
+};
+
+}  // namespace nsframe

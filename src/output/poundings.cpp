@@ -1,0 +1,34 @@
+#include "output/poundings.hpp"
+
+#include <unordered_map>
+
+namespace nsframe {
+
+std::vector<Pounding> merge_impacts(const std::vector<Impact>& impacts, double window) {
+  std::vector<Pounding> poundings;
+  std::unordered_map<int, std::size_t> latest;  // pounding of each pair
+  for (const auto& impact : impacts) {
+    const auto found = latest.find(impact.pair);
+    const bool continues =
+        found != latest.end() &&
+        impact.time - (poundings[found->second].time + poundings[found->second].duration) < window;
+    if (!continues) {
+      latest[impact.pair] = poundings.size();
+      Pounding first;
+      first.time = impact.time;
+      first.pair = impact.pair;
+      first.approach_velocity = impact.approach_velocity;
+      poundings.push_back(first);
+    }
+    Pounding& pounding = poundings[latest[impact.pair]];
+    pounding.duration = impact.time - pounding.time;
+    pounding.impulse += impact.impulse;
+    pounding.impacts += 1;
+    // A pounding that begins in resting contact has no approach to compare with.
+    pounding.effective_restitution =
+        pounding.approach_velocity > 0 ? impact.rate_after / pounding.approach_velocity : 0;
+  }
+  return poundings;
+}
+
+}  // namespace nsframe

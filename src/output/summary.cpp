@@ -1,0 +1,207 @@
+#include "output/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "output/files.hpp"
+
+namespace nsframe {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+
+std::string pair_name(const Summary& summary, int pair) {
+  const auto i = static_cast<std::size_t>(pair);
+  return pair >= 0 && i < summary.pairs.size() ? summary.pairs[i] : fmt::format("pair {}", pair);
+}
+
+Json impacts_json(const Summary& summary) {
+  Json list = Json::array();
+  for (const auto& impact : summary.impacts) {
+    list.push_back({{"t", impact.time},
+                    {"pair", pair_name(summary, impact.pair)},
+                    {"approach_velocity", impact.approach_velocity},
+                    {"impulse", impact.impulse},
+                    {"rate_before", impact.rate_before},
+                    {"rate_after", impact.rate_after}});
+  }
+  return list;
+}
+
+Json poundings_json(const Summary& summary) {
+  Json list = Json::array();
+  for (const auto& pounding : summary.poundings) {
+    list.push_back({{"t", pounding.time},
+                    {"duration", pounding.duration},
+                    {"pair", pair_name(summary, pounding.pair)},
+                    {"approach_velocity", pounding.approach_velocity},
+                    {"impulse", pounding.impulse},
+                    {"effective_restitution", pounding.effective_restitution},
+                    {"impacts", pounding.impacts}});
+  }
+  return list;
+}
+
+Json peaks_json(const Summary& summary) {
+  Json list = Json::array();
+  for (const auto& peak : summary.peaks) {
+    list.push_back({{"node", peak.node},
+                    {"displacement", to_json(peak.displacement)},
+                    {"velocity", to_json(peak.velocity)},
+                    {"acceleration", to_json(peak.acceleration)},
+                    {"twist", peak.twist}});
+  }
+  return list;
+}
+
+Json energy_json(const Summary& summary) {
+  const Energy& energy = summary.energy;
+  return {{"kinetic", energy.kinetic},
+          {"strain", energy.strain},
+          {"damping", energy.damping},
+          {"contact", energy.contact},
+          {"numerical", energy.numerical},
+          {"input", energy.input},
+          {"initial", energy.initial},
+          {"balance_error", energy.balance_error()},
+          {"worst_relative_balance_error", summary.worst_balance_error}};
+}
+
+Json modes_json(const Summary& summary) {
+  Json list = Json::array();
+  for (const auto& mode : summary.modes) {
+    list.push_back({{"structure", mode.structure},
+                    {"mode", mode.mode},
+                    {"frequency", mode.frequency},
+                    {"asked", mode.damping_asked},
+                    {"effective", mode.damping_effective},
+                    {"added", mode.damping_effective - mode.damping_asked},
+                    {"effective_frequency", mode.frequency_effective}});
+  }
+  return list;
+}
+
+std::string percent(double ratio) {
+  const double value = 100 * ratio;
+  const int decimals = std::abs(value) < 0.095 ? 2 : std::abs(value) < 99.5 ? 1 : 0;
+  return fmt::format("{:.{}f} %", value, decimals);
+}
+
+std::string mode_of(const ModeNumerics& mode) { return fmt::format("{} of '{}'", mode.mode, mode.structure); }
+
+// The scheme adds a quarter or more of the damping that the scene asks for, and at least 0.05 %.
+bool damped_too_much(const ModeNumerics& mode) {
+  const double added = mode.damping_effective - mode.damping_asked;
+  return added > std::max(5e-4, 0.25 * mode.damping_asked);
+}
+
+// Added over asked; undamped modes count as asking for 0.1 %.
+double excess(const ModeNumerics& mode) {
+  return (mode.damping_effective - mode.damping_asked) / std::max(mode.damping_asked, 1e-3);
+}
+
+// Modes whose damping the scene sets; all of them when it sets none.
+std::vector<ModeNumerics> modes_that_matter(const Summary& summary) {
+  std::vector<ModeNumerics> modes;
+  std::copy_if(summary.modes.begin(), summary.modes.end(), std::back_inserter(modes),
+               [](const auto& mode) { return mode.damping_asked > 0; });
+  return modes.empty() ? summary.modes : modes;
+}
+
+void warn_of_damping(const Summary& summary, const std::vector<ModeNumerics>& modes,
+                     std::vector<std::string>& warnings) {
+  const auto others = std::count_if(modes.begin(), modes.end(), damped_too_much) - 1;
+  if (others < 0) return;
+  const auto worst = std::max_element(modes.begin(), modes.end(), [](const auto& a, const auto& b) {
+    return (damped_too_much(a) ? excess(a) : -1) < (damped_too_much(b) ? excess(b) : -1);
+  });
+  const std::string more =
+      others == 0 ? ""
+                  : fmt::format(", and too much to {} other mode{}", others, others == 1 ? "" : "s");
+  warnings.push_back(fmt::format(
+      "theta = {:g} at dt = {:g} ms adds {} damping to mode {}, which asks for {}{}: {}", summary.theta,
+      1e3 * summary.dt, percent(worst->damping_effective - worst->damping_asked), mode_of(*worst),
+      percent(worst->damping_asked), more,
+      summary.pairs.empty() ? "peaks come out too low" : "impacts may be missed"));
+}
+
+void warn_of_shift(const Summary& summary, const std::vector<ModeNumerics>& modes,
+                   std::vector<std::string>& warnings) {
+  const auto shift = [](const ModeNumerics& mode) {
+    return mode.frequency > 0 && mode.frequency_effective > 0 ? mode.frequency_effective / mode.frequency - 1 : 0.0;
+  };
+  const auto worst = std::max_element(modes.begin(), modes.end(), [&](const auto& a, const auto& b) {
+    return std::abs(shift(a)) < std::abs(shift(b));
+  });
+  if (worst == modes.end() || std::abs(shift(*worst)) < 0.01) return;
+  warnings.push_back(fmt::format("dt = {:g} ms shifts the frequency of mode {} by {}: a smaller step is needed for it",
+                                 1e3 * summary.dt, mode_of(*worst), percent(shift(*worst))));
+}
+
+}  // namespace
+
+std::vector<std::string> numerical_warnings(const Summary& summary) {
+  std::vector<std::string> warnings;
+  const auto modes = modes_that_matter(summary);
+  warn_of_damping(summary, modes, warnings);
+  warn_of_shift(summary, modes, warnings);
+  if (summary.worst_balance_error > 0.01) {
+    warnings.push_back(fmt::format("the energy balance is off by {} of the largest energy: the results are not accurate",
+                                   percent(summary.worst_balance_error)));
+  }
+  if (summary.max_complementarity_error > 1e-6) {
+    warnings.push_back(fmt::format("the contact problem is solved to {:.1e} only: impulses carry that relative error",
+                                   summary.max_complementarity_error));
+  }
+  return warnings;
+}
+
+std::string summary_json(const Summary& summary) {
+  const Json json = {{"program", "nsframe"},
+                     {"version", NSFRAME_VERSION},
+                     {"title", summary.title},
+                     {"completed", summary.completed},
+                     {"stop_reason", summary.stop_reason},
+                     {"end_time", summary.end_time},
+                     {"scheme", summary.scheme},
+                     {"dt", summary.dt},
+                     {"duration", summary.duration},
+                     {"theta", summary.theta},
+                     {"gamma", summary.gamma},
+                     {"steps", summary.steps},
+                     {"nodes", summary.nodes},
+                     {"elements", summary.elements},
+                     {"fibers", summary.fibers},
+                     {"dofs", summary.dofs},
+                     {"structures", summary.structures},
+                     {"frequencies", summary.frequencies},
+                     {"numerical_damping", modes_json(summary)},
+                     {"pairs", summary.pairs},
+                     {"impacts", impacts_json(summary)},
+                     {"poundings", poundings_json(summary)},
+                     {"peaks", peaks_json(summary)},
+                     {"energy", energy_json(summary)},
+                     {"max_penetration", summary.max_penetration},
+                     {"max_complementarity_error", summary.max_complementarity_error},
+                     {"newton_iterations", summary.newton_iterations},
+                     {"halved_steps", summary.halved_steps},
+                     {"factorizations", summary.factorizations},
+                     {"timing",
+                      {{"setup", summary.timing.setup},
+                       {"step_loop", summary.timing.step_loop},
+                       {"output", summary.timing.output}}},
+                     {"warnings", summary.warnings}};
+  // Names may come from a file in another encoding: bytes that are not UTF-8 are replaced, not fatal.
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void write_summary(const Summary& summary, const std::filesystem::path& path) {
+  write_text_file(path, summary_json(summary));
+}
+
+}  // namespace nsframe

@@ -1,0 +1,121 @@
+#include "scene/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "elements/catalogue.hpp"
+#include "scene/describe.hpp"
+#include "scene/reader.hpp"
+
+namespace nsframe {
+
+void check(TableReader& table, const ShapeSection& section) {
+  if (!find_shape(section.shape.name))
+    table.error("shape", fmt::format("shape '{}' is not in the catalogue{}", section.shape.name,
+                                     did_you_mean(section.shape.name, shape_names())));
+}
+
+void check(TableReader& table, const ConstantsSection& section) {
+  if (section.G.has_value() == section.poisson.has_value())
+    table.error("G", "a section of constants needs either G or poisson");
+}
+
+void check(TableReader& table, const PatchSection& section) {
+  if (section.GJ.has_value() == (section.G && section.J) || section.G.has_value() != section.J.has_value())
+    table.error("GJ", "a fiber section needs either GJ, or G and J");
+  for (const PatchTable& patch : section.patches)
+    if (patch.y[0] == patch.y[1] || patch.z[0] == patch.z[1]) table.error("patches", "a patch has no area");
+}
+
+void check(TableReader& table, const MassTable& mass) {
+  if (mass.mass.size() != 1 && mass.mass.size() != 3)
+    table.error("mass", fmt::format("mass has {} values, must have 1 or 3", mass.mass.size()));
+  if (!mass.inertia.empty() && mass.inertia.size() != 3)
+    table.error("inertia", fmt::format("inertia has {} values, must have 3", mass.inertia.size()));
+}
+
+namespace {
+
+void check_two_nodes(TableReader& table, const std::vector<Reference>& nodes) {
+  if (nodes.size() != 2) table.error("nodes", fmt::format("nodes has {} values, must have 2", nodes.size()));
+}
+
+}  // namespace
+
+void check(TableReader& table, const BeamTable& beam) { check_two_nodes(table, beam.nodes); }
+void check(TableReader& table, const BarTable& bar) { check_two_nodes(table, bar.nodes); }
+
+void check(TableReader& table, const SpringTable& spring) {
+  if (spring.nodes.size() != 1 && spring.nodes.size() != 2)
+    table.error("nodes", fmt::format("nodes has {} values, must have 1 (to the ground) or 2", spring.nodes.size()));
+}
+
+void check(TableReader& table, const SlabTable& slab) {
+  if (slab.corners.size() < 3) table.error("corners", "a slab has at least 3 corners");
+  if (slab.kind != SlabKind::links && !slab.center) table.error("kind", "a rigid slab or diaphragm needs a center");
+}
+
+void check(TableReader& table, const DampingTable& damping) {
+  const bool named = !damping.ratios.named.empty(), listed = !damping.ratios.list.empty();
+  switch (damping.kind) {
+    case DampingKind::none:
+      for (const char* key : {"ratios", "frequencies", "mass_factor", "stiffness_factor"})
+        if (table.has(key) && (named || listed || !damping.frequencies.empty() || damping.mass_factor != 0 ||
+                               damping.stiffness_factor != 0))
+          return table.error(key, fmt::format("{} is given, but no kind of damping", key));
+      return;
+    case DampingKind::modal:
+      if (!named && !listed) table.error("ratios", "modal damping needs ratios");
+      if (!damping.frequencies.empty()) table.error("frequencies", "frequencies belong to rayleigh damping");
+      return;
+    case DampingKind::rayleigh:
+      if (named) return table.error("ratios", "the ratios of rayleigh damping are a list, not names of modes");
+      if (damping.frequencies.empty() && listed) return table.error("ratios", "rayleigh ratios need two frequencies");
+      if (damping.frequencies.empty()) return;
+      if (damping.frequencies.size() != 2 || damping.frequencies[0] == damping.frequencies[1])
+        return table.error("frequencies", "rayleigh damping needs two different frequencies");
+      if (damping.ratios.list.empty() || damping.ratios.list.size() > 2)
+        return table.error("ratios", "rayleigh damping by frequencies needs one ratio, or two");
+      if (damping.mass_factor != 0 || damping.stiffness_factor != 0)
+        table.error("frequencies", "rayleigh damping has either factors or frequencies");
+  }
+}
+
+void check(TableReader& table, const StoryFrameTable& frame) {
+  for (const std::string& fault : faults(frame.frame)) table.error(fault.substr(0, fault.find_first_of(" .")), fault);
+}
+
+void check(TableReader& table, const ContactTable& contact) {
+  if (!contact.between.empty() && (contact.a || contact.b))
+    return table.error("between", "a contact has either between, or a and b");
+  if (contact.a.has_value() != contact.b.has_value())
+    return table.error(contact.a ? "a" : "b", "a contact needs a and b");
+  if (!contact.a && contact.between.size() != 2)
+    return table.error("between", "a contact needs two sides: between = [first, second]");
+  const auto [a, b] = sides(contact);
+  const bool nodes = contact_kind(contact) == ContactKind::nodes;
+  if (a.name == "ground") return table.error("between", "the ground must be the second side of a contact");
+  if (!nodes && b.name == "ground")
+    return table.error("kind", "contact with the ground is between a node and \"ground\"");
+  for (const Reference& side : {a, b}) {
+    if (side.name == "ground") continue;
+    if (nodes && side.name.find('.') == std::string::npos)
+      table.error(contact.a ? "a" : "between",
+                  fmt::format("'{}' is not a node, written as \"structure.node\"", side.name));
+  }
+  if (b.name == "ground" && contact.gap.values.empty()) table.error("between", "contact with the ground needs a gap");
+}
+
+void check(TableReader& table, const MotionTable& motion) {
+  if (motion.pga && motion.factor) table.error("factor", "a motion has either pga or factor");
+}
+
+void check(TableReader& table, const OutputOptions& output) {
+  static const std::vector<std::string> known{"nodes", "contacts", "elements", "sections", "energy", "ground"};
+  for (const std::string& name : output.history)
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      table.error("history", fmt::format("there is no history '{}'{}", name, did_you_mean(name, known)));
+}
+
+}  // namespace nsframe

@@ -1,0 +1,27 @@
+// Rules of a table that span several keys; called when its single keys are without error.
+#pragma once
+
+#include "scene/scene.hpp"
+
+namespace nsframe {
+
+class TableReader;
+
+template <class Table>
+void check(TableReader&, const Table&) {}
+
+void check(TableReader& table, const ShapeSection& section);
+void check(TableReader& table, const ConstantsSection& section);
+void check(TableReader& table, const PatchSection& section);
+void check(TableReader& table, const MassTable& mass);
+void check(TableReader& table, const BeamTable& beam);
+void check(TableReader& table, const BarTable& bar);
+void check(TableReader& table, const SpringTable& spring);
+void check(TableReader& table, const SlabTable& slab);
+void check(TableReader& table, const DampingTable& damping);
+void check(TableReader& table, const StoryFrameTable& frame);
+void check(TableReader& table, const ContactTable& contact);
+void check(TableReader& table, const MotionTable& motion);
+void check(TableReader& table, const OutputOptions& output);
+
+}  // namespace nsframe

@@ -1,0 +1,229 @@
+#include <algorithm>
+
+#include "scene/describe.hpp"
+
+namespace nsframe {
+
+namespace {
+
+Vector3 vector3(const std::vector<double>& values) {
+  if (values.size() == 1) return Vector3::Constant(values[0]);
+  return values.size() == 3 ? Vector3(values[0], values[1], values[2]) : Vector3::Zero();
+}
+
+Reference at_or_empty(const std::vector<Reference>& nodes, std::size_t i) {
+  return i < nodes.size() ? nodes[i] : Reference{};
+}
+
+ElementDescription describe(const BeamTable& beam, const ExplicitStructure& structure) {
+  ElementDescription out;
+  out.id = beam.id.name;
+  out.at = beam.id.at;
+  out.kind = element_kind(beam.element.value_or(structure.element));
+  out.node_i = at_or_empty(beam.nodes, 0);
+  out.node_j = at_or_empty(beam.nodes, 1);
+  out.section = beam.section;
+  out.points = beam.points.value_or(structure.points);
+  out.geometry = beam.geometry.value_or(structure.geometry);
+  if (beam.orientation)
+    out.orientation = Vector3((*beam.orientation)[0], (*beam.orientation)[1], (*beam.orientation)[2]);
+  return out;
+}
+
+ElementDescription describe(const BarTable& bar, BarKind kind, const ExplicitStructure& structure) {
+  ElementDescription out;
+  out.id = bar.id.name;
+  out.at = bar.id.at;
+  out.kind = element_kind(kind);
+  out.node_i = at_or_empty(bar.nodes, 0);
+  out.node_j = at_or_empty(bar.nodes, 1);
+  out.material = bar.material;
+  out.area = bar.area;
+  out.pretension = bar.pretension;
+  out.geometry = bar.geometry.value_or(structure.geometry);
+  return out;
+}
+
+SpringDescription describe(const SpringTable& spring) {
+  SpringDescription out;
+  out.id = spring.id.name;
+  out.at = spring.id.at;
+  out.node_i = at_or_empty(spring.nodes, 0);
+  if (spring.nodes.size() == 2) out.node_j = spring.nodes[1];
+  out.stiffness = Eigen::Map<const Vector6>(spring.stiffness.of_dof.data());
+  out.damping = Eigen::Map<const Vector6>(spring.damping.of_dof.data());
+  out.law = spring.law.of_dof;
+  return out;
+}
+
+ConstraintDescription tie(const SlabTable& slab, ConstraintKind kind) {
+  ConstraintDescription out{slab.id.at, kind, slab.center.value_or(Reference{}), slab.corners, {}};
+  out.dofs = ConstraintDescription{}.dofs;
+  out.slaves.insert(out.slaves.end(), slab.nodes.begin(), slab.nodes.end());
+  return out;
+}
+
+// Rigid bodies, then diaphragms, then equal DOFs.
+void describe_constraints(const ExplicitStructure& structure, StructureDescription& out) {
+  const auto tie_slabs = [&](SlabKind kind, ConstraintKind constraint) {
+    for (const SlabTable& slab : structure.slabs)
+      if (slab.kind == kind && slab.center) out.constraints.push_back(tie(slab, constraint));
+  };
+  const auto tie_nodes = [&](const std::vector<TieTable>& ties, ConstraintKind kind) {
+    for (const TieTable& t : ties)
+      out.constraints.push_back({t.master.at, kind, t.master, t.slaves, ConstraintDescription{}.dofs});
+  };
+  tie_nodes(structure.rigid_links, ConstraintKind::rigid_body);
+  tie_slabs(SlabKind::rigid, ConstraintKind::rigid_body);
+  tie_nodes(structure.diaphragms, ConstraintKind::diaphragm);
+  tie_slabs(SlabKind::diaphragm, ConstraintKind::diaphragm);
+  for (const EqualDofTable& t : structure.equal_dof)
+    out.constraints.push_back({t.master.at, ConstraintKind::equal_dof, t.master, t.slaves, t.dofs.dofs});
+}
+
+template <class Initial>
+std::vector<InitialDescription> describe(const std::vector<Initial>& tables) {
+  std::vector<InitialDescription> out;
+  for (const Initial& initial : tables) out.push_back({initial.node, static_cast<int>(initial.dof), initial.value});
+  return out;
+}
+
+template <class Initial>
+std::vector<Initial> initial_tables(const std::vector<InitialDescription>& descriptions) {
+  std::vector<Initial> out;
+  for (const InitialDescription& d : descriptions) {
+    Initial& initial = out.emplace_back();
+    initial.node = d.node;
+    initial.dof = static_cast<Dof>(d.dof);
+    initial.value = d.value;
+  }
+  return out;
+}
+
+}  // namespace
+
+DampingDescription describe(const DampingTable& damping) {
+  DampingDescription out;
+  out.at = damping.at;
+  out.kind = damping.kind;
+  out.mass_factor = damping.mass_factor;
+  out.stiffness_factor = damping.stiffness_factor;
+  if (damping.kind == DampingKind::modal) {
+    out.ratios = damping.ratios.list;
+    out.named_ratios = damping.ratios.named;
+  }
+  if (damping.kind == DampingKind::rayleigh && damping.frequencies.size() == 2 && !damping.ratios.list.empty()) {
+    out.frequencies = {damping.frequencies[0], damping.frequencies[1]};
+    out.frequency_ratios = {damping.ratios.list.front(), damping.ratios.list.back()};
+  }
+  return out;
+}
+
+DampingTable table(const DampingDescription& damping) {
+  DampingTable out;
+  out.at = damping.at;
+  out.kind = damping.kind;
+  out.ratios = {damping.ratios, damping.named_ratios};
+  out.mass_factor = damping.mass_factor;
+  out.stiffness_factor = damping.stiffness_factor;
+  if (damping.frequencies) {
+    out.frequencies.assign(damping.frequencies->begin(), damping.frequencies->end());
+    out.ratios.list.assign(damping.frequency_ratios.begin(), damping.frequency_ratios.end());
+  }
+  return out;
+}
+
+StructureDescription describe(const StoryFrameTable& frame) {
+  StructureDescription out = expand(frame.frame);
+  out.damping = describe(frame.damping);
+  return out;
+}
+
+StructureDescription describe(const ExplicitStructure& structure) {
+  StructureDescription out;
+  out.name = structure.name;
+  out.at = structure.at;
+  out.may_move_freely = structure.may_move_freely;
+  for (const NodeTable& n : structure.nodes) out.nodes.push_back({n.id.name, n.id.at, Vector3(n.x, n.y, n.z)});
+  for (const SupportTable& s : structure.supports) out.supports.push_back({s.node, s.fixed.dofs});
+  for (const MassTable& m : structure.masses) out.masses.push_back({m.node, vector3(m.mass), vector3(m.inertia)});
+  for (const BeamTable& beam : structure.beams) out.elements.push_back(describe(beam, structure));
+  for (const BarTable& bar : structure.trusses) out.elements.push_back(describe(bar, BarKind::truss, structure));
+  for (const BarTable& bar : structure.cables) out.elements.push_back(describe(bar, BarKind::cable, structure));
+  for (const SpringTable& spring : structure.springs) out.springs.push_back(describe(spring));
+  describe_constraints(structure, out);
+  for (const SlabTable& s : structure.slabs)
+    out.slabs.push_back(
+        {s.id.name, s.id.at, s.corners, s.center, s.thickness, s.rigid_contact.value_or(s.kind != SlabKind::links)});
+  out.damping = describe(structure.damping);
+  out.initial_displacements = describe(structure.initial_displacement);
+  out.initial_velocities = describe(structure.initial_velocity);
+  return out;
+}
+
+namespace {
+
+BeamTable beam_table(const ElementDescription& element) {
+  BeamTable out{{element.id, element.at},
+                {element.node_i, element.node_j},
+                element.section,
+                BeamKind::elastic,
+                element.points,
+                element.geometry,
+                std::nullopt};
+  if (element.kind == ElementKind::displacement_beam) out.element = BeamKind::displacement;
+  if (element.kind == ElementKind::force_beam) out.element = BeamKind::force_based;
+  if (element.orientation) {
+    const Vector3& v = *element.orientation;
+    out.orientation = {v.x(), v.y(), v.z()};
+  }
+  return out;
+}
+
+SpringTable spring_table(const SpringDescription& spring) {
+  SpringTable out;
+  out.id = {spring.id, spring.at};
+  out.nodes = {spring.node_i};
+  if (spring.node_j) out.nodes.push_back(*spring.node_j);
+  Eigen::Map<Vector6>(out.stiffness.of_dof.data()) = spring.stiffness;
+  Eigen::Map<Vector6>(out.damping.of_dof.data()) = spring.damping;
+  out.law.of_dof = spring.law;
+  return out;
+}
+
+}  // namespace
+
+ExplicitStructure tables(const StructureDescription& structure) {
+  ExplicitStructure out;
+  out.name = structure.name;
+  out.at = structure.at;
+  out.may_move_freely = structure.may_move_freely;
+  for (const NodeDescription& n : structure.nodes)
+    out.nodes.push_back({{n.id, n.at}, n.position.x(), n.position.y(), n.position.z()});
+  for (const SupportDescription& s : structure.supports) out.supports.push_back({s.node, {s.fixed}});
+  for (const MassDescription& m : structure.masses)
+    out.masses.push_back({m.node, {m.mass.x(), m.mass.y(), m.mass.z()}, {m.inertia.x(), m.inertia.y(), m.inertia.z()}});
+  for (const ElementDescription& e : structure.elements) {
+    const BarTable bar{{e.id, e.at}, {e.node_i, e.node_j}, e.material, e.area, e.pretension, e.geometry};
+    if (e.kind == ElementKind::truss)
+      out.trusses.push_back(bar);
+    else if (e.kind == ElementKind::cable)
+      out.cables.push_back(bar);
+    else
+      out.beams.push_back(beam_table(e));
+  }
+  for (const SpringDescription& spring : structure.springs) out.springs.push_back(spring_table(spring));
+  for (const ConstraintDescription& c : structure.constraints) {
+    if (c.kind == ConstraintKind::rigid_body) out.rigid_links.push_back({c.master, c.slaves});
+    if (c.kind == ConstraintKind::diaphragm) out.diaphragms.push_back({c.master, c.slaves});
+    if (c.kind == ConstraintKind::equal_dof) out.equal_dof.push_back({c.master, c.slaves, {c.dofs}});
+  }
+  for (const SlabDescription& s : structure.slabs)
+    out.slabs.push_back({{s.id, s.at}, s.corners, s.center, {}, SlabKind::links, s.thickness, s.rigid});
+  out.damping = table(structure.damping);
+  out.initial_displacement = initial_tables<InitialDisplacement>(structure.initial_displacements);
+  out.initial_velocity = initial_tables<InitialVelocity>(structure.initial_velocities);
+  return out;
+}
+
+}  // namespace nsframe

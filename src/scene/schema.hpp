@@ -1,0 +1,223 @@
+// The schema of scene files: one visit(archive, struct) for each table lists its keys with text, dimension, range and
+// default (that of the struct). Reading, writing and docs/scene-reference.md all follow from it.
+//
+// A table in a list may be written as a row; row_keys() says which keys its values stand for, in order (a last key
+// ending in "..." takes all that remain). is_map() tables may also be keyed by their first row key.
+#pragma once
+
+#include <span>
+#include <utility>
+
+#include "models/analysis.hpp"
+#include "scene/field.hpp"
+#include "scene/schema_names.hpp"
+#include "scene/tables.hpp"
+
+namespace nsframe {
+
+using RowKeys = std::span<const std::string_view>;
+
+template <class Table>
+constexpr RowKeys row_keys(const Table*) {
+  return {};
+}
+template <class Table>
+constexpr bool is_map(const Table*) {
+  return false;
+}
+
+// The key that a bare value in place of the table stands for; empty: none.
+template <class Table>
+constexpr std::string_view scalar_key(const Table*) {
+  return {};
+}
+
+inline constexpr Range gauss_points{3, 10, false, false};
+inline constexpr Range count{1, 1e6, false, false};
+
+// --- materials
+// --------------------------------------------------------------------------------------------------------
+
+template <class Archive>
+void visit(Archive& ar, Elastic& law) {
+  ar(required("E", "elastic modulus; of a spring's law: stiffness in N/m or N m/rad", dimension::stress,
+              range::positive),
+     law.E);
+}
+
+template <class Archive>
+void visit(Archive& ar, ElasticPP& law) {
+  ar(required("E", "elastic modulus", dimension::stress, range::positive), law.E);
+  ar(required("epsyP", "yield strain in tension", {}, range::positive), law.epsyP);
+  ar(Field{"epsyN", "yield strain in compression, negative; 0: -epsyP", {}, {-range::infinity, 0}}, law.epsyN);
+  ar(Field{"eps0", "initial strain"}, law.eps0);
+}
+
+template <class Archive>
+void visit(Archive& ar, Steel01& law) {
+  ar(required("fy", "yield stress", dimension::stress, range::positive), law.fy);
+  ar(required("E", "elastic modulus", dimension::stress, range::positive), law.E);
+  ar(Field{"b", "hardening ratio", {}, range::below_one}, law.b);
+}
+
+template <class Archive>
+void visit(Archive& ar, Steel02& law) {
+  ar(required("fy", "yield stress", dimension::stress, range::positive), law.fy);
+  ar(required("E", "elastic modulus", dimension::stress, range::positive), law.E);
+  ar(Field{"b", "hardening ratio", {}, range::below_one}, law.b);
+  ar(Field{"R0", "curvature of the first loading", {}, range::positive}, law.R0);
+  ar(Field{"cR1", "decay of the curvature with plastic excursion", {}, {0, 1, false, true}}, law.cR1);
+  ar(Field{"cR2", "the same", {}, range::positive}, law.cR2);
+  ar(Field{"a1", "isotropic hardening in compression"}, law.a1);
+  ar(Field{"a2", "its excursion in yield strains", {}, range::positive}, law.a2);
+  ar(Field{"a3", "isotropic hardening in tension"}, law.a3);
+  ar(Field{"a4", "its excursion in yield strains", {}, range::positive}, law.a4);
+  ar(Field{"sigInit", "initial stress", dimension::stress}, law.sigInit);
+}
+
+// --- sections
+// ---------------------------------------------------------------------------------------------------------
+
+template <class Archive>
+void visit(Archive& ar, ShapeSection& s) {
+  ar(required("shape", "rolled shape: HEA, HEB or IPE and its number, as `HEA100`"), s.shape);
+  ar(required("material", "of the fibers"), s.material);
+  ar(Field{"flange_width", "fibers across a flange's width", {}, count}, s.flange_width);
+  ar(Field{"flange_layers", "fibers through a flange's thickness", {}, count}, s.flange_layers);
+  ar(Field{"web", "fibers along the web", {}, count}, s.web);
+  ar(Field{"fillets", "root fillets, one fiber each"}, s.fillets);
+  ar(Field{"poisson", "Poisson's ratio, for G = E/(2(1 + poisson))", {}, {-1, 0.5, true, false}}, s.poisson);
+  ar(Field{"G", "shear modulus, in place of Poisson's ratio", dimension::stress, range::positive}, s.G);
+  ar(Field{.key = "J",
+           .text = "torsion constant",
+           .dimension = dimension::fourth_power_of_length,
+           .range = range::positive,
+           .default_text = "of the catalogue"},
+     s.J);
+}
+
+template <class Archive>
+void visit(Archive& ar, ConstantsSection& s) {
+  constexpr Dimension m4 = dimension::fourth_power_of_length;
+  ar(required("E", "elastic modulus", dimension::stress, range::positive), s.constants.E);
+  ar(Field{.key = "G", .text = "shear modulus", .dimension = dimension::stress, .range = range::non_negative}, s.G);
+  ar(Field{"poisson", "Poisson's ratio, in place of G = E/(2(1 + poisson))", {}, {-1, 0.5, true, false}}, s.poisson);
+  ar(required("A", "area", dimension::area, range::positive), s.constants.A);
+  ar(required("Iz", "second moment for bending in the local x-y plane", m4, range::positive), s.constants.Iz);
+  ar(required("Iy", "second moment for bending in the local x-z plane", m4, range::positive), s.constants.Iy);
+  ar(required("J", "torsion constant", m4, range::non_negative), s.constants.J);
+  ar(Field{"depth", "along local y, of the rectangle drawn; 0: none drawn", dimension::length, range::non_negative},
+     s.depth);
+  ar(Field{"width", "along local z, of the rectangle drawn", dimension::length, range::non_negative}, s.width);
+}
+
+template <class Archive>
+void visit(Archive& ar, PatchTable& p) {
+  ar(required("material", "of the fibers"), p.material);
+  ar(required("y", "from and to along local y", dimension::length), p.y);
+  ar(required("z", "from and to along local z", dimension::length), p.z);
+  ar(Field{"ny", "fibers along y", {}, count}, p.ny);
+  ar(Field{"nz", "fibers along z", {}, count}, p.nz);
+}
+
+template <class Archive>
+void visit(Archive& ar, FiberTable& f) {
+  ar(required("y", "place along local y", dimension::length), f.y);
+  ar(required("z", "place along local z", dimension::length), f.z);
+  ar(required("area", "area", dimension::area, range::positive), f.area);
+  ar(required("material", "of the fiber"), f.material);
+}
+inline constexpr std::string_view fiber_row[]{"y", "z", "area", "material"};
+constexpr RowKeys row_keys(const FiberTable*) { return fiber_row; }
+
+template <class Archive>
+void visit(Archive& ar, PatchSection& s) {
+  ar(Field{"patches", "rectangles cut into fibers"}, s.patches);
+  ar(Field{"fibers", "single fibers"}, s.fibers);
+  ar(Field{"GJ", "torsional stiffness", dimension::bending_stiffness, range::non_negative}, s.GJ);
+  ar(Field{"G", "shear modulus, with J in place of GJ", dimension::stress, range::non_negative}, s.G);
+  ar(Field{"J", "torsion constant", dimension::fourth_power_of_length, range::non_negative}, s.J);
+}
+
+// --- contact, loads
+// ---------------------------------------------------------------------------------------------------
+
+template <class Archive>
+void visit(Archive& ar, ContactTable& c) {
+  ar(Field{"name", "prefix of the pairs' names"}, c.name);
+  ar(Field{.key = "kind",
+           .text = "slab-corners: facing corners of two structures, floor by floor; nodes: one node "
+                   "against another or the ground",
+           .default_text = "by the names in `between`"},
+     c.kind);
+  ar(Field{"between", "two structures, or two nodes `structure.node`, or a node and \"ground\""}, c.between);
+  ar(Field{"a", "one node, with `b` in place of `between`"}, c.a);
+  ar(Field{"b", "the other node, or \"ground\""}, c.b);
+  ar(Field{"direction", "from the first to the second"}, c.direction);
+  ar(Field{.key = "gap",
+           .text = "one value; or one a corner by rising y (or x); or rows of these, one a floor from the lowest",
+           .dimension = dimension::length,
+           .default_text = "from the coordinates"},
+     c.gap);
+  ar(Field{"restitution", "Newton's e", {}, range::unit}, c.restitution);
+}
+
+template <class Archive>
+void visit(Archive& ar, GravityTable& g) {
+  ar(Field{"acceleration", "gravity", dimension::acceleration, range::non_negative}, g.acceleration);
+  ar(Field{"direction", "in which it pulls"}, g.direction);
+  ar(Field{"statically_first", "find the rest under gravity before t = 0; false: it acts suddenly at t = 0"},
+     g.statically_first);
+}
+
+template <class Archive>
+void visit(Archive& ar, MotionTable& m) {
+  ar(required("file",
+              "PEER AT2, or text with one column (give `dt`) or two (time, acceleration); relative to the scene"),
+     m.file);
+  ar(Field{"dt", "step of a one-column file", dimension::time, range::positive}, m.dt);
+  ar(Field{.key = "unit", .text = "of the numbers in the file", .default_text = "AT2: \"g\"; text must say"}, m.unit);
+  ar(Field{.key = "pga",
+           .text = "peak to scale the record to",
+           .dimension = dimension::acceleration,
+           .range = range::positive,
+           .default_text = "as recorded"},
+     m.pga);
+  ar(Field{.key = "factor", .text = "in place of `pga`: times this", .default_text = "1"}, m.factor);
+  ar(Field{"direction", "of the base acceleration"}, m.direction);
+}
+
+// --- analysis, output
+// -------------------------------------------------------------------------------------------------
+
+template <class Archive>
+void visit(Archive& ar, AnalysisOptions& a) {
+  ar(Field{"scheme", "time integration"}, a.scheme);
+  ar(Field{"dt", "time step", dimension::time, range::positive}, a.dt);
+  ar(Field{"duration", "model time; 0: length of the longest motion", dimension::time, range::non_negative},
+     a.duration);
+  ar(Field{"theta", "of the theta-method; the paper uses 1", {}, {0.5, 1}}, a.theta);
+  ar(Field{"gamma", "a pair is active where g + gamma dt g' < 0; the paper uses 1.5", {}, range::non_negative},
+     a.gamma);
+  ar(Field{"newton_tolerance", "residual relative to the largest force of the step", {}, range::positive},
+     a.newton_tolerance);
+  ar(Field{"max_newton", "iterations of a step", {}, count}, a.max_newton);
+  ar(Field{"max_halvings", "of a step whose iterations fail", {}, {0, 60}}, a.max_halvings);
+  ar(Field{"contact_solver", "of the contact problem"}, a.contact_solver);
+  ar(Field{"contact_tolerance", "complementarity error relative to the approach velocity", {}, range::positive},
+     a.contact_tolerance);
+  ar(Field{"max_contact_sweeps", "gauss-seidel only", {}, {1, 1e9}}, a.max_contact_sweeps);
+  ar(Field{"threads", "of one run", {}, {1, 1024}}, a.threads);
+}
+
+template <class Archive>
+void visit(Archive& ar, OutputOptions& o) {
+  ar(Field{"frames", "rate of ParaView frames; 0: none", dimension::frequency, range::non_negative}, o.frames);
+  ar(Field{"history_rate", "rate of histories; 0: every step", dimension::frequency, range::non_negative},
+     o.history_rate);
+  ar(Field{"history", "what to keep: `nodes`, `contacts`, `elements`, `sections`, `energy`, `ground`"}, o.history);
+  ar(Field{"nodes", "`structure.node` to keep; empty: all"}, o.nodes);
+  ar(Field{"amplification", "of the displacements stored in the frames", {}, range::non_negative}, o.amplification);
+}
+
+}  // namespace nsframe

@@ -1,0 +1,255 @@
+// The schema of [structure.NAME]: explicit tables and the parametric frame; see schema.hpp.
+#pragma once
+
+#include "scene/schema.hpp"
+
+namespace nsframe {
+
+template <class Archive>
+void visit(Archive& ar, NodeTable& n) {
+  ar(required("id", "unique in the structure"), n.id);
+  ar(required("x", "place", dimension::length), n.x);
+  ar(required("y", "place", dimension::length), n.y);
+  ar(required("z", "place, upwards", dimension::length), n.z);
+}
+inline constexpr std::string_view node_row[]{"id", "x", "y", "z"};
+constexpr RowKeys row_keys(const NodeTable*) { return node_row; }
+
+template <class Archive>
+void visit(Archive& ar, SupportTable& s) {
+  ar(required("node", "node"), s.node);
+  ar(required("fixed", "\"fixed\" (all six DOFs), \"pinned\" (translations), or a list of DOFs"), s.fixed);
+}
+inline constexpr std::string_view support_row[]{"node", "fixed"};
+constexpr RowKeys row_keys(const SupportTable*) { return support_row; }
+constexpr bool is_map(const SupportTable*) { return true; }
+
+template <class Archive>
+void visit(Archive& ar, MassTable& m) {
+  ar(required("node", "node"), m.node);
+  ar(required("mass", "one value for all three translations, or one each", dimension::mass, range::non_negative),
+     m.mass);
+  ar(Field{"inertia", "about x, y and z", dimension::inertia, range::non_negative}, m.inertia);
+}
+inline constexpr std::string_view mass_row[]{"node", "mass..."};
+constexpr RowKeys row_keys(const MassTable*) { return mass_row; }
+constexpr bool is_map(const MassTable*) { return true; }
+
+template <class Archive>
+void visit(Archive& ar, BeamTable& b) {
+  ar(required("id", "unique among the structure's elements"), b.id);
+  ar(required("nodes", "from, to"), b.nodes);
+  ar(required("section", "section"), b.section);
+  ar(Field{.key = "element", .text = "elastic or fiber beam-column", .default_text = "the structure's"}, b.element);
+  ar(Field{.key = "points",
+           .text = "Gauss-Lobatto points of a fiber beam",
+           .range = gauss_points,
+           .default_text = "the structure's"},
+     b.points);
+  ar(Field{.key = "geometry", .text = "linear or P-Delta", .default_text = "the structure's"}, b.geometry);
+  ar(Field{.key = "orientation",
+           .text = "vector in the local x-z plane",
+           .default_text = "local y along global X in vertical members, upwards in others"},
+     b.orientation);
+}
+inline constexpr std::string_view beam_row[]{"id", "nodes", "nodes", "section"};
+constexpr RowKeys row_keys(const BeamTable*) { return beam_row; }
+
+template <class Archive>
+void visit(Archive& ar, BarTable& b) {
+  ar(required("id", "unique among the structure's elements"), b.id);
+  ar(required("nodes", "from, to"), b.nodes);
+  ar(required("material", "material"), b.material);
+  ar(required("area", "cross-section", dimension::area, range::positive), b.area);
+  ar(Field{"pretension", "axial force at rest, positive in tension", dimension::force}, b.pretension);
+  ar(Field{.key = "geometry", .text = "linear or P-Delta", .default_text = "the structure's"}, b.geometry);
+}
+inline constexpr std::string_view bar_row[]{"id", "nodes", "nodes", "material", "area", "pretension"};
+constexpr RowKeys row_keys(const BarTable*) { return bar_row; }
+
+template <class Archive, class Table>
+void visit_dofs(Archive& ar, Table& table, std::string_view text, Dimension translation, Dimension rotation) {
+  for (std::size_t i = 0; i < 6; ++i)
+    ar(Field{dof_names[i], text, i < 3 ? translation : rotation, range::non_negative}, table.of_dof[i]);
+}
+template <class Archive>
+void visit(Archive& ar, StiffnessTable& s) {
+  visit_dofs(ar, s, "stiffness", dimension::stiffness, dimension::rotational_stiffness);
+}
+template <class Archive>
+void visit(Archive& ar, DashpotTable& s) {
+  visit_dofs(ar, s, "dashpot constant", dimension::dashpot, dimension::rotational_dashpot);
+}
+template <class Archive>
+void visit(Archive& ar, LawTable& s) {
+  for (std::size_t i = 0; i < 6; ++i) ar(Field{dof_names[i], "material, force against displacement"}, s.of_dof[i]);
+}
+constexpr RowKeys row_keys(const StiffnessTable*) { return dof_names; }
+constexpr RowKeys row_keys(const DashpotTable*) { return dof_names; }
+
+template <class Archive>
+void visit(Archive& ar, SpringTable& s) {
+  ar(required("id", "unique among the structure's elements"), s.id);
+  ar(required("nodes", "one (to the ground) or two, at one place"), s.nodes);
+  ar(Field{"stiffness", "by direction"}, s.stiffness);
+  ar(Field{"damping", "dashpots by direction"}, s.damping);
+  ar(Field{"law", "material laws by direction, in place of stiffness"}, s.law);
+}
+
+template <class Archive>
+void visit(Archive& ar, TieTable& t) {
+  ar(required("master", "node that leads"), t.master);
+  ar(required("slaves", "nodes that follow"), t.slaves);
+}
+inline constexpr std::string_view tie_row[]{"master", "slaves..."};
+constexpr RowKeys row_keys(const TieTable*) { return tie_row; }
+
+template <class Archive>
+void visit(Archive& ar, EqualDofTable& t) {
+  ar(required("master", "node that leads"), t.master);
+  ar(required("slaves", "nodes that follow"), t.slaves);
+  ar(Field{"dofs", "which"}, t.dofs);
+}
+inline constexpr std::string_view equal_dof_row[]{"master", "slaves", "dofs"};
+constexpr RowKeys row_keys(const EqualDofTable*) { return equal_dof_row; }
+
+template <class Archive>
+void visit(Archive& ar, SlabTable& s) {
+  ar(required("id", "unique among the structure's slabs"), s.id);
+  ar(required("corners", "nodes in order around the slab"), s.corners);
+  ar(Field{"center", "node; the master of a rigid slab or diaphragm"}, s.center);
+  ar(Field{"nodes", "further nodes tied by a rigid slab or diaphragm"}, s.nodes);
+  ar(Field{"kind", "links: carried by elements given elsewhere; rigid: one rigid body; diaphragm: rigid in its plane"},
+     s.kind);
+  ar(Field{"thickness", "for drawing only", dimension::length, range::positive}, s.thickness);
+  ar(Field{.key = "rigid_contact",
+           .text = "impacts act on the whole slab, not on the corner's share",
+           .default_text = "unless kind is links"},
+     s.rigid_contact);
+}
+
+template <class Archive, class Initial>
+void visit_initial(Archive& ar, Initial& v) {
+  ar(required("node", "node"), v.node);
+  ar(required("dof", "direction"), v.dof);
+  ar(required("value", "relative to the base, in m or rad (m/s or rad/s)", v.dimension()), v.value);
+}
+template <class Archive>
+void visit(Archive& ar, InitialDisplacement& v) {
+  visit_initial(ar, v);
+}
+template <class Archive>
+void visit(Archive& ar, InitialVelocity& v) {
+  visit_initial(ar, v);
+}
+inline constexpr std::string_view initial_row[]{"node", "dof", "value"};
+constexpr RowKeys row_keys(const InitialDisplacement*) { return initial_row; }
+constexpr RowKeys row_keys(const InitialVelocity*) { return initial_row; }
+
+template <class Archive>
+void visit(Archive& ar, DampingTable& d) {
+  ar(Field{"kind", "modal: eq. (22), by structure; rayleigh: mass_factor M + stiffness_factor K"}, d.kind);
+  ar(Field{"ratios",
+           "modal: of the first modes in order, or by name (L1 along x, T1 along y, R1 about z, V1 along z); "
+           "rayleigh: at the two frequencies",
+           {},
+           range::non_negative},
+     d.ratios);
+  ar(Field{"frequencies", "rayleigh: two, in place of the factors", dimension::frequency, range::positive},
+     d.frequencies);
+  ar(Field{"mass_factor", "rayleigh", dimension::frequency, range::non_negative}, d.mass_factor);
+  ar(Field{"stiffness_factor", "rayleigh", dimension::time, range::non_negative}, d.stiffness_factor);
+}
+
+template <class Archive>
+void visit(Archive& ar, ExplicitStructure& s) {
+  ar(Field{"element", "kind of the beams that don't say"}, s.element);
+  ar(Field{"points", "of the beams that don't say", {}, gauss_points}, s.points);
+  ar(Field{"geometry", "of the elements that don't say"}, s.geometry);
+  ar(Field{"may_move_freely", "a motion without stiffness is intended (a ball, a rolling mass)"}, s.may_move_freely);
+  ar(required("nodes", "nodes"), s.nodes);
+  ar(Field{"supports", "fixed DOFs"}, s.supports);
+  ar(Field{"masses", "lumped masses"}, s.masses);
+  ar(Field{"beams", "beam-columns"}, s.beams);
+  ar(Field{"trusses", "bars in tension and compression"}, s.trusses);
+  ar(Field{"cables", "bars in tension only"}, s.cables);
+  ar(Field{"springs", "springs and dashpots of no length"}, s.springs);
+  ar(Field{"rigid_links", "all six DOFs follow as of one rigid body"}, s.rigid_links);
+  ar(Field{"diaphragms", "ux, uy and rz follow"}, s.diaphragms);
+  ar(Field{"equal_dof", "listed DOFs follow"}, s.equal_dof);
+  ar(Field{"slabs", "for contact and drawing; ties its nodes when rigid or a diaphragm"}, s.slabs);
+  ar(Field{"initial_displacement", "at t = 0"}, s.initial_displacement);
+  ar(Field{"initial_velocity", "at t = 0"}, s.initial_velocity);
+  ar(Field{"damping", "damping"}, s.damping);
+}
+
+template <class Archive>
+void visit_members(Archive& ar, FrameMembers& m) {
+  ar(required("section", "one, or one a story from the lowest"), m.section);
+  ar(Field{"element", "kind"}, m.element);
+  ar(Field{"points", "Gauss-Lobatto points of a fiber beam", {}, gauss_points}, m.points);
+  ar(Field{"geometry", "linear or P-Delta"}, m.geometry);
+}
+template <class Archive>
+void visit(Archive& ar, FrameMembers& m) {
+  visit_members(ar, m);
+}
+template <class Archive>
+void visit(Archive& ar, FrameColumns& m) {
+  visit_members(ar, m);
+  ar(Field{"depth", "direction of the sections' depth (their local y)"}, m.depth);
+}
+
+template <class Archive>
+void visit(Archive& ar, FrameSlab& s) {
+  ar(Field{"kind",
+           "links: elastic members from the centre to the columns; rigid: one body; diaphragm: rigid in its plane"},
+     s.kind);
+  ar(Field{"section", "of the links"}, s.section);
+  ar(Field{"thickness", "for drawing only", dimension::length, range::positive}, s.thickness);
+}
+
+template <class Archive>
+void visit(Archive& ar, FrameBraces& b) {
+  ar(required("planes", "outer planes with crossed braces: \"-x\" is the one of lowest x"), b.planes);
+  ar(Field{"kind", "truss or cable"}, b.kind);
+  ar(required("material", "material"), b.material);
+  ar(required("area", "of one brace; one, or one a story", dimension::area, range::positive), b.area);
+  ar(Field{"pretension", "axial force at rest", dimension::force}, b.pretension);
+}
+
+template <class Archive>
+void visit(Archive& ar, FrameBase& b) {
+  ar(required("kind", "spring: rotations about x and y held by springs, all else fixed"), b.kind);
+  ar(Field{"stiffness", "of the springs", dimension::rotational_stiffness, range::non_negative}, b.stiffness);
+}
+constexpr std::string_view scalar_key(const FrameBase*) { return "kind"; }
+
+template <class Archive>
+void visit(Archive& ar, StoryFrameTable& t) {
+  StoryFrame& f = t.frame;
+  ar(Field{"stories", "number of stories", {}, {1, 1000}}, f.stories);
+  ar(Field{"height", "of a story; one, or one a story", dimension::length, range::positive}, f.height);
+  ar(required("plan", "lengths along x and y; a list of spans in place of a length", dimension::length,
+              range::positive),
+     f.plan);
+  ar(Field{"bays", "equal bays along x and y", {}, {1, 1000}}, f.bays);
+  ar(Field{"origin", "the plan's corner of lowest x and y, at the base", dimension::length}, f.origin);
+  ar(Field{"columns", "at every crossing of the grid"}, f.columns);
+  ar(Field{"beams", "along every line of the grid"}, f.beams);
+  ar(Field{"slab", "how a floor is tied to its centre"}, f.slab);
+  ar(Field{"braces", "crossed braces in outer planes"}, f.braces);
+  ar(Field{"base", "feet of the columns"}, f.base);
+  ar(Field{"floor_mass", "one, or one a story", dimension::mass, range::non_negative}, f.mass.floor);
+  ar(Field{"centre_share",
+           "of the horizontal mass at the slab's centre; the outer corners share the rest",
+           {},
+           range::unit},
+     f.mass.centre_share);
+  ar(Field{"centre_inertia", "extra inertia about z at the centre; one, or one a story", dimension::inertia,
+           range::non_negative},
+     f.mass.centre_inertia);
+  ar(Field{"damping", "damping"}, t.damping);
+}
+
+}  // namespace nsframe

@@ -1,0 +1,251 @@
+// The tables of a scene file as structs: what is written there, in SI, before short forms are resolved. describe.hpp
+// turns them into the descriptions of models/description.hpp and back; schema.hpp lists their keys.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "elements/catalogue.hpp"
+#include "models/description.hpp"
+#include "models/story_frame.hpp"
+#include "scene/quantity.hpp"
+
+namespace nsframe {
+
+// A unit vector: "x", "-y" or three numbers of any length.
+struct Direction {
+  Vector3 vector = Vector3::UnitX();
+};
+
+// Some of the six DOFs of a node: "fixed", "pinned", or a list of names.
+struct DofSet {
+  std::array<bool, 6> dofs{};
+};
+
+inline constexpr std::array<std::string_view, 6> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
+enum class Dof { ux, uy, uz, rx, ry, rz };
+
+// --- materials and sections
+// -------------------------------------------------------------------------------------------
+
+struct MaterialTable {
+  std::string name;
+  Location at;
+  UniaxialLaw law;
+};
+
+struct ShapeSection {
+  Reference shape;  // of the catalogue
+  Reference material;
+  int flange_width = ShapeMesh{}.flange_width, flange_layers = ShapeMesh{}.flange_layers, web = ShapeMesh{}.web;
+  bool fillets = ShapeMesh{}.fillets;
+  double poisson = 0.3;
+  std::optional<double> G, J;  // [Pa], [m4]
+};
+
+struct ConstantsSection {
+  ElasticSection constants;          // but for G
+  std::optional<double> G, poisson;  // [Pa], [-]: one of them
+  double depth = 0, width = 0;       // [m] along local y and z, of the rectangle drawn
+};
+
+struct PatchTable {
+  Reference material;
+  std::array<double, 2> y{}, z{};  // [m] from, to
+  int ny = 1, nz = 1;
+};
+
+struct FiberTable {
+  double y = 0, z = 0, area = 0;  // [m], [m2]
+  Reference material;
+};
+
+struct PatchSection {
+  std::vector<PatchTable> patches;
+  std::vector<FiberTable> fibers;
+  std::optional<double> GJ, G, J;  // [N m2], [Pa], [m4]
+};
+
+struct SectionTable {
+  std::string name;
+  Location at;
+  std::variant<ShapeSection, ConstantsSection, PatchSection> kind;
+};
+
+// --- explicit structures
+// ----------------------------------------------------------------------------------------------
+
+struct NodeTable {
+  Reference id;
+  double x = 0, y = 0, z = 0;  // [m]
+};
+
+struct SupportTable {
+  Reference node;
+  DofSet fixed;
+};
+
+struct MassTable {
+  Reference node;
+  std::vector<double> mass;     // [kg], one for all directions or three
+  std::vector<double> inertia;  // [kg m2], none or three
+};
+
+struct BeamTable {
+  Reference id;
+  std::vector<Reference> nodes;
+  Reference section;
+  std::optional<BeamKind> element;  // default: the structure's
+  std::optional<int> points;
+  std::optional<Geometry> geometry;
+  std::optional<std::array<double, 3>> orientation;
+};
+
+struct BarTable {  // truss or cable
+  Reference id;
+  std::vector<Reference> nodes;
+  Reference material;
+  double area = 0;        // [m2]
+  double pretension = 0;  // [N]
+  std::optional<Geometry> geometry;
+};
+
+// Six values by direction: stiffnesses, dashpots, laws.
+struct StiffnessTable {
+  std::array<double, 6> of_dof{};
+};
+struct DashpotTable {
+  std::array<double, 6> of_dof{};
+};
+struct LawTable {
+  std::array<std::optional<Reference>, 6> of_dof{};
+};
+
+struct SpringTable {
+  Reference id;
+  std::vector<Reference> nodes;  // one: to the ground
+  StiffnessTable stiffness;
+  DashpotTable damping;
+  LawTable law;
+};
+
+struct TieTable {  // rigid link or diaphragm
+  Reference master;
+  std::vector<Reference> slaves;
+};
+
+struct EqualDofTable {
+  Reference master;
+  std::vector<Reference> slaves;
+  DofSet dofs{{true, true, true, true, true, true}};
+};
+
+struct SlabTable {
+  Reference id;
+  std::vector<Reference> corners;
+  std::optional<Reference> center;
+  std::vector<Reference> nodes;  // further nodes tied by a rigid slab or diaphragm
+  SlabKind kind = SlabKind::links;
+  double thickness = SlabDescription{}.thickness;  // [m]
+  std::optional<bool> rigid_contact;               // default: kind is not links
+};
+
+struct InitialTable {
+  Reference node;
+  Dof dof = Dof::ux;
+  double value = 0;  // [m, rad] or [m/s, rad/s]
+};
+struct InitialDisplacement : InitialTable {
+  Dimension dimension() const { return dof < Dof::rx ? dimension::length : dimension::angle; }
+};
+struct InitialVelocity : InitialTable {
+  Dimension dimension() const { return dof < Dof::rx ? dimension::velocity : dimension::angular_velocity; }
+};
+
+// A list of ratios in the order of the modes, or ratios by the names of modes.
+struct RatioTable {
+  std::vector<double> list;
+  std::vector<std::pair<Reference, double>> named;
+};
+
+struct DampingTable {
+  Location at;
+  DampingKind kind = DampingKind::none;
+  RatioTable ratios;                // modal; rayleigh: of the two frequencies
+  std::vector<double> frequencies;  // [Hz] rayleigh, none or two
+  double mass_factor = 0;           // [1/s]
+  double stiffness_factor = 0;      // [s]
+};
+
+struct ExplicitStructure {
+  std::string name;
+  Location at;
+  BeamKind element = BeamKind::elastic;  // defaults of the beams
+  int points = ElementDescription{}.points;
+  Geometry geometry = Geometry::linear;
+  bool may_move_freely = false;
+  std::vector<NodeTable> nodes;
+  std::vector<SupportTable> supports;
+  std::vector<MassTable> masses;
+  std::vector<BeamTable> beams;
+  std::vector<BarTable> trusses, cables;
+  std::vector<SpringTable> springs;
+  std::vector<TieTable> rigid_links, diaphragms;
+  std::vector<EqualDofTable> equal_dof;
+  std::vector<SlabTable> slabs;
+  std::vector<InitialDisplacement> initial_displacement;
+  std::vector<InitialVelocity> initial_velocity;
+  DampingTable damping;
+};
+
+// --- parametric structures
+// --------------------------------------------------------------------------------------------
+
+struct StoryFrameTable {
+  StoryFrame frame;  // its damping is `damping`
+  DampingTable damping;
+};
+
+using StructureTable = std::variant<ExplicitStructure, StoryFrameTable>;
+
+// --- contact, loads
+// ---------------------------------------------------------------------------------------------------
+
+// One value, a row, or rows of values.
+struct GapList {
+  std::vector<double> values;  // [m]
+};
+
+struct ContactTable {
+  Location at;
+  std::string name;
+  std::optional<ContactKind> kind;  // default: by the names in `between`
+  std::vector<Reference> between;
+  std::optional<Reference> a, b;  // in place of `between`
+  Direction direction;
+  GapList gap;
+  double restitution = ContactDescription{}.restitution;
+};
+
+struct GravityTable {
+  double acceleration = 9.81;  // [m/s2]
+  Direction direction{-Vector3::UnitZ()};
+  bool statically_first = true;
+};
+
+enum class MotionUnit { g, metres };
+
+struct MotionTable {
+  Location at;
+  Reference file;
+  std::optional<double> dt;        // [s]
+  std::optional<MotionUnit> unit;  // of the numbers in the file
+  std::optional<double> pga;       // [m/s2]
+  std::optional<double> factor;
+  Direction direction;
+};
+
+}  // namespace nsframe

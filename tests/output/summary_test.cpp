@@ -1,0 +1,148 @@
+#include <doctest/doctest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "base/errors.hpp"
+#include "output/files.hpp"
+#include "output/poundings.hpp"
+#include "output/summary.hpp"
+#include "tests/output/sample_pair.hpp"
+
+using namespace nsframe;
+using namespace nsframe::test;
+
+namespace {
+
+Impact impact_at(double time, int pair, double approach, double impulse, double rate_after) {
+  return {time, pair, approach, impulse, -approach, rate_after};
+}
+
+Summary sample_summary() {
+  Summary summary;
+  summary.title = "Two frames";
+  summary.scheme = "moreau-jean";
+  summary.dt = 1e-3;
+  summary.theta = 1;
+  summary.duration = summary.end_time = 20;
+  summary.steps = 20000;
+  summary.dofs = 96;
+  summary.structures = {"left", "right"};
+  summary.frequencies = {{2.6, 7.5}, {3.4, 9.9}};
+  summary.modes = {{"right", "L1", 3.5, 0.006, 0.017, 3.49}, {"right", "L2", 6.55, 0.002, 0.023, 6.53}};
+  summary.pairs = {"left.11-right.12", "left.14-right.13 with a name that is much longer than any column of the table"};
+  for (int i = 0; i < 30; ++i) summary.impacts.push_back(impact_at(0.1 * i, i % 2, 0.4, 120, 0.24));
+  summary.poundings = merge_impacts(summary.impacts);
+  Peak peak;
+  peak.node = "left.21";
+  peak.displacement = Vector3(0.0512, -0.001, 0.0001);
+  peak.twist = 0.003;
+  summary.peaks = {peak};
+  summary.energy.input = 1200;
+  summary.energy.kinetic = 200;
+  summary.energy.strain = 1000.001;
+  summary.newton_iterations = 20000;
+  summary.warnings = numerical_warnings(summary);
+  return summary;
+}
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+}  // namespace
+
+TEST_CASE("impacts of one pair closer than 20 ms are one pounding, of another pair they are not") {
+  const std::vector<Impact> impacts{impact_at(1.000, 0, 0.5, 10, 0.1), impact_at(1.005, 1, 0.3, 7, 0.2),
+                                    impact_at(1.015, 0, 0.2, 5, 0.05), impact_at(1.030, 0, 0.1, 1, 0.3),
+                                    impact_at(1.051, 0, 0.4, 2, 0.24)};
+  const auto poundings = merge_impacts(impacts);
+  REQUIRE(poundings.size() == 3);
+  CHECK(poundings[0].time == 1.000);
+  CHECK(poundings[0].duration == doctest::Approx(0.030));
+  CHECK(poundings[0].impulse == 16);
+  CHECK(poundings[0].impacts == 3);
+  CHECK(poundings[0].approach_velocity == 0.5);
+  CHECK(poundings[0].effective_restitution == doctest::Approx(0.6));
+  CHECK(poundings[1].pair == 1);
+  CHECK(poundings[1].duration == 0);
+  CHECK(poundings[2].time == 1.051);
+  CHECK(poundings[2].effective_restitution == doctest::Approx(0.6));
+}
+
+TEST_CASE("a pounding that starts from resting contact has no restitution") {
+  const auto poundings = merge_impacts({impact_at(0.5, 0, 0, 3, 0)});
+  REQUIRE(poundings.size() == 1);
+  CHECK(poundings[0].effective_restitution == 0);
+}
+
+TEST_CASE("the summary file has every key of the contract and the numbers of the run") {
+  const TemporaryFolder folder;
+  const Summary summary = sample_summary();
+  write_summary(summary, folder / "summary.json");
+  const auto json = nlohmann::json::parse(content(folder / "summary.json"));
+  for (const char* key : {"scheme", "dt", "steps", "dofs", "frequencies", "impacts", "poundings", "peaks", "energy",
+                          "numerical_damping", "max_penetration", "newton_iterations", "timing", "warnings",
+                          "completed", "stop_reason", "title"}) {
+    CHECK_MESSAGE(json.contains(key), key);
+  }
+  CHECK(json["impacts"].size() == 30);
+  CHECK(json["impacts"][0]["pair"] == "left.11-right.12");
+  CHECK(json["impacts"][1]["t"].get<double>() == 0.1);
+  CHECK(json["poundings"][0]["effective_restitution"].get<double>() == doctest::Approx(0.6));
+  CHECK(json["frequencies"][1][0] == 3.4);
+  CHECK(json["energy"]["balance_error"].get<double>() == doctest::Approx(0.001));
+  CHECK(json["numerical_damping"][1]["added"].get<double>() == doctest::Approx(0.021));
+  CHECK(json["peaks"][0]["displacement"][0] == 0.0512);
+  CHECK(json["timing"].contains("step_loop"));
+  CHECK_FALSE(std::filesystem::exists(folder / "summary.json.partial"));
+}
+
+TEST_CASE("the summary of a run that blew up is still valid JSON") {
+  Summary summary = sample_summary();
+  summary.energy.kinetic = std::nan("");
+  summary.title = "not UTF-8: \xff";
+  CHECK(nlohmann::json::parse(summary_json(summary))["energy"]["kinetic"].is_null());
+}
+
+TEST_CASE("the scheme's own damping is named where it drowns what the scene asks for") {
+  const auto warnings = numerical_warnings(sample_summary());
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0] == "theta = 1 at dt = 1 ms adds 2.1 % damping to mode L2 of 'right', which asks for 0.2 %, and too "
+                       "much to 1 other mode: impacts may be missed");
+}
+
+TEST_CASE("a scheme that adds no damping and no shift gives no warning") {
+  Summary summary = sample_summary();
+  for (auto& mode : summary.modes) {
+    mode.damping_effective = mode.damping_asked;
+    mode.frequency_effective = mode.frequency;
+  }
+  CHECK(numerical_warnings(summary).empty());
+}
+
+TEST_CASE("the terminal table stays within 100 columns and lists at most 20 poundings") {
+  const std::string text = summary_text(sample_summary());
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) CHECK_MESSAGE(line.size() <= 100, line);
+  CHECK(text.find("... and 10 more") != std::string::npos);
+  CHECK(text.find("impacts may be missed") != std::string::npos);
+}
+
+TEST_CASE("a summary that cannot be written says which file and why") {
+  const TemporaryFolder folder;
+  CHECK_THROWS_AS(write_summary(sample_summary(), folder / "missing/summary.json"), IoError);
+  try {
+    write_text_file("/dev/full/x", "text");
+    FAIL("expected an IoError");
+  } catch (const IoError& error) {
+    CHECK(std::string(error.what()).find("/dev/full/x") != std::string::npos);
+  }
+  write_text_file(folder / "file", "text");
+  CHECK_THROWS_AS(make_folder(folder / "file/below"), IoError);
+  CHECK_THROWS_AS(make_folder(folder / "file"), IoError);
+}

@@ -1,0 +1,175 @@
+#include <doctest/doctest.h>
+
+#include "dump.hpp"
+#include "scene_text.hpp"
+
+using namespace nsframe;
+using test::difference;
+using test::dump;
+using test::scene;
+
+namespace {
+
+constexpr const char* examples[] = {"two_story", "two_story_elastic", "bouncing_ball", "pull_back", "plane_frame"};
+
+Scene example(const std::string& name) {
+  Diagnostics diagnostics;
+  Scene out = read_scene(NSFRAME_SOURCE_DIR "/examples/" + name + "/scene.toml", {}, diagnostics);
+  diagnostics.throw_if_any();
+  return out;
+}
+
+Scene reread(const std::string& text, const std::filesystem::path& directory) {
+  Diagnostics diagnostics;
+  Scene out = parse_scene(text, "written.toml", directory, {}, diagnostics);
+  diagnostics.throw_if_any();
+  return out;
+}
+
+// Every kind of table that a scene may have.
+constexpr const char* everything = R"(
+title = "quote \" and é"
+[material.linear]
+law = "Elastic"
+E = "210 GPa"
+[material.plastic]
+law = "ElasticPP"
+E = "210 GPa"
+epsyP = 1e-3
+[material."steel 1"]
+law = "Steel01"
+fy = "235 MPa"
+E = "210 GPa"
+[section.shape]
+shape = "HEA 140"
+material = "steel 1"
+web = 4
+fillets = false
+G = "80 GPa"
+J = "8.13 cm4"
+[section.constants]
+E = "30 GPa"
+G = "12 GPa"
+A = 0.1
+Iz = 1e-3
+Iy = 1e-4
+J = 1e-4
+depth = 0.3
+width = 0.2
+[section.fibers]
+patches = [{ material = "plastic", y = [-0.1, 0.1], z = ["-5 cm", "5 cm"], ny = 4, nz = 2 }]
+fibers = [[0.08, 0, "2 cm2", "linear"], { y = -0.08, z = 0, area = 2e-4, material = "linear" }]
+GJ = 1e5
+[structure.a]
+element = "displacement"
+points = 4
+geometry = "p-delta"
+nodes = [[1, 0, 0, 0], ["top", 0, 0, "3 m"], { id = 3, x = 1, y = 0, z = 3 }, [4, 1, 1, 3], [5, 0, 1, 3], [6, 0.5, 0.5, 3]]
+supports = { 1 = "fixed", 3 = "pinned", 4 = ["ux", "rz"] }
+masses = { top = "1 t", 3 = [1, 2, 3], 4 = { mass = 5, inertia = [0, 0, "7 kg m2"] } }
+beams = [
+  [1, 1, "top", "shape"],
+  { id = "b", nodes = ["top", 3], section = "constants", element = "elastic", geometry = "linear", orientation = [0, 1, 1] },
+  { id = 3, nodes = [3, 4], section = "fibers", element = "force-based", points = 7 },
+]
+trusses = [["t", 1, 3, "linear", "1 cm2"]]
+cables = [{ id = "c", nodes = [1, 4], material = "linear", area = 1e-4, pretension = "2 kN", geometry = "linear" }]
+springs = [
+  { id = "s1", nodes = 1, stiffness = [1, 2, 3, 4, 5, 6] },
+  { id = "s2", nodes = [3, 4], stiffness = { ry = "3 kN m/rad" }, damping = { ux = "2 N s/m", rz = 1 }, law = { uz = "linear" } },
+]
+rigid_links = [["top", 5], { master = 3, slaves = [4] }]
+diaphragms = [[3, 4, 5]]
+equal_dof = [["top", 3, ["ux", "uy"]], [4, 5, ["rx"]]]
+slabs = [
+  { id = 1, corners = ["top", 3, 4, 5], center = 6, kind = "diaphragm", thickness = "20 cm" },
+  { id = 2, corners = ["top", 3, 4], center = 6, nodes = [5], kind = "rigid", rigid_contact = false },
+  { id = 3, corners = ["top", 3, 4] },
+]
+initial_displacement = [["top", "ux", "-2.4 cm"], ["top", "ry", "1 deg"]]
+initial_velocity = [["top", "uy", "1 m/s"]]
+damping = { kind = "rayleigh", frequencies = ["1 Hz", "5 Hz"], ratios = "0.5 %" }
+[structure.b]
+model = "story_frame"
+stories = 3
+height = ["4 m", 3, 3]
+plan = [["3 m", "4 m"], 5]
+bays = [1, 2]
+origin = [20, 0, 0]
+columns = { section = ["shape", "shape", "fibers"], element = "force-based", points = 4, geometry = "p-delta", depth = "y" }
+beams = { section = "constants" }
+slab = { kind = "diaphragm" }
+braces = { planes = ["-x", "+y"], kind = "cable", material = "linear", area = [3e-4, 2e-4, 1e-4], pretension = "1 kN" }
+base = "pinned"
+floor_mass = ["20 t", "20 t", "15 t"]
+centre_share = 0.5
+damping = { kind = "modal", ratios = [0.01, 0.02] }
+[structure.c]
+may_move_freely = true
+nodes = [[1, 0, 0, 9]]
+damping = { kind = "rayleigh", mass_factor = 0.1, stiffness_factor = "1 ms" }
+[[contact]]
+between = ["a", "b"]
+gap = [["1 cm", "2 cm"], ["3 cm", "4 cm"]]
+[[contact]]
+name = "floor"
+between = ["c.1", "ground"]
+direction = "-z"
+gap = 9
+restitution = 0.3
+[[contact]]
+kind = "nodes"
+a = "a.3"
+b = "c.1"
+direction = [1, 1, 0]
+[gravity]
+acceleration = "1 g"
+direction = [1, 0, -3]
+statically_first = false
+[analysis]
+contact_solver = "gauss-seidel"
+threads = 2
+[output]
+nodes = ["a.top", "b.11"]
+)";
+
+}  // namespace
+
+TEST_CASE("a scene written back and read again is the same scene") {
+  for (const char* name : examples) {
+    CAPTURE(name);
+    const Scene first = example(name);
+    const Scene second = reread(write_scene(first), first.directory);
+    CHECK(difference(dump(first.model), dump(second.model)) == "");
+    CHECK(difference(write_scene(first), write_scene(second)) == "");
+  }
+  const Scene first = scene(everything), second = scene(write_scene(first));
+  CHECK(difference(dump(first.model), dump(second.model)) == "");
+  CHECK(difference(write_scene(first), write_scene(second)) == "");
+}
+
+TEST_CASE("a scene expanded to explicit nodes and elements describes the same model") {
+  for (const char* name : examples) {
+    CAPTURE(name);
+    const Scene first = example(name);
+    const std::string expanded = write_expanded_scene(first);
+    CHECK(expanded.find("story_frame") == std::string::npos);
+    CHECK(difference(dump(first.model), dump(reread(expanded, first.directory).model)) == "");
+  }
+  const Scene first = scene(everything);
+  CHECK(difference(dump(first.model), dump(scene(write_expanded_scene(first)).model)) == "");
+}
+
+TEST_CASE("a scene written for another directory still finds its records") {
+  const Scene first = example("two_story");
+  const test::TemporaryDirectory directory;
+  const Scene second = reread(write_scene(first, directory.path()), directory.path());
+  REQUIRE(second.model.motions.size() == 1);
+  CHECK(second.model.motions[0].acceleration == first.model.motions[0].acceleration);
+}
+
+TEST_CASE("the written scene has every default that was used") {
+  const std::string text = write_scene(scene(""));
+  for (const char* line : {"theta = 1\n", "gamma = 1.5\n", "dt = 0.001\n", "max_newton = 30\n", "amplification = 1\n"})
+    CHECK(text.find(line) != std::string::npos);
+}
