@@ -5,6 +5,8 @@
     contact: base, models/contacts.hpp     modal: base     integrators: also contact
     scene: base .. models                  output: base .. models     app, tests, bench: anything
 
+A test or a bench may also name a helper in its own folder without a path.
+
     check_includes.py [ROOT]      exit code 1 and one line a violation
     check_includes.py --self-test
 """
@@ -47,6 +49,8 @@ def violations(root):
                 if quote == "<":
                     if "/" in target and first in FOLDERS and (directory(root, first) / target.split("/", 1)[1]).exists():
                         yield place + 'a file of this project is included with "..."'
+                elif folder in {"tests", "bench"} and (path.parent / target).exists():
+                    continue  # a helper beside the test
                 elif first not in FOLDERS or "/" not in target or ".." in target:
                     yield place + "write it from the root, as in \"materials/uniaxial.hpp\""
                 elif folder not in ANYTHING and not {first, target} & ALLOWED[folder]:
@@ -66,7 +70,8 @@ def self_test():
         "src/integrators/step.cpp": '#include "contact/problem.hpp"\n#include "assembly/assembly.hpp"\n',
         "src/scene/reader.cpp": '#include "models/model.hpp"\n',
         "src/app/main.cpp": '#include "scene/reader.hpp"\n#include "modal/modes.hpp"\n#include "output/vtk.hpp"\n',
-        "tests/app/run_test.cpp": '#include "tests/support/x.hpp"\n#include "output/vtk.hpp"\n',
+        "tests/app/run_test.cpp": '#include "tests/support/x.hpp"\n#include "output/vtk.hpp"\n#include "helper.hpp"\n',
+        "tests/app/helper.hpp": "",
     }
     wrong = {
         "materials/sees_element.hpp": '#include "elements/beam.hpp"\n',
