@@ -15,7 +15,7 @@ template <class History>
 constexpr int components = static_cast<int>(sizeof(History) / sizeof(Lanes));
 
 template <class Law>
-void add_block(const Law& law, const FiberSection& section, const FiberBlock& block, const Vector3& deformation,
+HWY_NOINLINE void add_block(const Law& law, const FiberSection& section, const FiberBlock& block, const Vector3& deformation,
                const double* committed, double* trial, SectionResponse& sum) {
   using History = typename Law::template History<Lanes>;
   const Lanes e0(deformation[0]), kz(deformation[1]), ky(deformation[2]);

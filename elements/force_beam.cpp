@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "base/errors.hpp"
 
@@ -35,7 +36,7 @@ constexpr int max_inner_iterations = 60;
 constexpr int max_line_search = 30;
 // Section forces out of balance relative to their change over the step (the last linear correction then leaves an
 // error of about the square), and relative to the forces themselves (rounding).
-constexpr double change_tolerance = 1e-6;
+constexpr double change_tolerance = 1e-4;
 constexpr double force_tolerance = 1e-11;
 
 }  // namespace
@@ -100,7 +101,8 @@ double ForceBeams::move_sections(const Element& element, const std::vector<Vecto
 // Given v, the section deformations minimise the strain energy under sum w b' e = v, with the basic forces as
 // multipliers. Newton on that; once the constraint holds (after the first full step), corrections keep it, and a line
 // search on the energy's slope ends the circles that sharply bent laws send Newton into.
-void ForceBeams::find_sections(int element, const Vector5& deformation, const double* committed, double* trial) const {
+void ForceBeams::find_sections(int element, const Vector5& deformation, double rounding, const double* committed,
+                               double* trial) const {
   const Element& e = element_at(element);
   Head head(trial);
   const Head before(const_cast<double*>(committed));
@@ -121,7 +123,8 @@ void ForceBeams::find_sections(int element, const Vector5& deformation, const do
       change += weight * changed.dot(f * changed);
       scale += weight * wanted.dot(f * wanted);
     }
-    const double accepted = std::max(change_tolerance * change_tolerance * change, force_tolerance * force_tolerance * scale);
+    const double accepted = std::max({change_tolerance * change_tolerance * change, force_tolerance * force_tolerance * scale,
+                                      rounding * rounding * head.tangent.trace()});
     if (iteration > 0 && unbalance <= accepted) return;
     if (!std::isfinite(unbalance) || iteration >= max_inner_iterations) {
       throw ConvergenceError(fmt::format("force-based element '{}' does not find its section forces", id(element)));
@@ -141,7 +144,8 @@ void ForceBeams::respond(int element, const Vector12& displacement, const double
                          Vector12& force, Matrix12* tangent) const {
   const Element& e = element_at(element);
   const Vector6 v = e.frame.compatibility * displacement;
-  find_sections(element, v.head<5>(), committed, trial);
+  const double rounding = std::numeric_limits<double>::epsilon() * displacement.cwiseAbs().maxCoeff();
+  find_sections(element, v.head<5>(), rounding, committed, trial);
   const Head head(trial);
   const double torsion = e.section->torsion_stiffness / e.frame.length;
   Vector6 basic_force;

@@ -24,7 +24,8 @@ class ForceBeams : public FiberBeams {
   void balance(const Element& element, const Vector5& deformation, double* data) const;
   double move_sections(const Element& element, const std::vector<Vector3>& start, const std::vector<Vector3>& correction,
                        double length, const double* committed, double* trial) const;
-  void find_sections(int element, const Vector5& deformation, const double* committed, double* trial) const;
+  // `rounding`: of the basic deformations [m, rad], for elements that do not deform at all.
+  void find_sections(int element, const Vector5& deformation, double rounding, const double* committed, double* trial) const;
 };
 
 }  // namespace nsframe

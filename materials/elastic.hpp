@@ -35,7 +35,7 @@ namespace nsframe {
 namespace HWY_NAMESPACE {
 
 template <class T>
-Response<T, Elastic> respond(const Elastic& law, T strain, const Elastic::History<T>&) {
+HWY_INLINE Response<T, Elastic> respond(const Elastic& law, T strain, const Elastic::History<T>&) {
   return {T(law.E) * strain, T(law.E), {strain}};
 }
 

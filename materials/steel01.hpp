@@ -43,7 +43,7 @@ namespace nsframe {
 namespace HWY_NAMESPACE {
 
 template <class T>
-Response<T, Steel01> respond(const Steel01& law, T strain, const Steel01::History<T>& committed) {
+HWY_INLINE Response<T, Steel01> respond(const Steel01& law, T strain, const Steel01::History<T>& committed) {
   const T trial = committed.stress + T(law.E) * (strain - committed.strain);
   const T middle = T(law.b * law.E) * strain;
   const T half_width = T(law.fy * (1 - law.b));

@@ -67,7 +67,7 @@ namespace nsframe {
 namespace HWY_NAMESPACE {
 
 template <class T>
-Response<T, Steel02> respond(const Steel02& law, T strain_from_zero, const Steel02::History<T>& committed) {
+HWY_INLINE Response<T, Steel02> respond(const Steel02& law, T strain_from_zero, const Steel02::History<T>& committed) {
   const double E = law.E, hardening = law.b * law.E, yield_strain = law.fy / law.E;
   const T zero(0.0), one(1.0);
   const T strain = strain_from_zero + T(law.sigInit / E);

@@ -14,7 +14,7 @@ struct AnalysisOptions {
   double duration = 0;                 // [s]; 0: the length of the longest motion
   double theta = 1.0;                  // [1/2, 1]; the paper uses 1
   double gamma = 1.5;                  // activation: a pair takes part where g + gamma dt g' < 0; the paper uses 3/2
-  double newton_tolerance = 1e-9;      // residual relative to the largest force of the step
+  double newton_tolerance = 1e-8;      // residual relative to the largest force of the step
   int max_newton = 30;
   int max_halvings = 10;               // of a step whose Newton iterations fail
   ContactSolverKind contact_solver = ContactSolverKind::active_set;

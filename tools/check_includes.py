@@ -17,7 +17,8 @@ from pathlib import Path
 
 CHAIN = ["base", "materials", "elements", "models", "assembly", "integrators"]
 ALLOWED = {folder: set(CHAIN[: i + 1]) for i, folder in enumerate(CHAIN)}
-ALLOWED["integrators"] |= {"contact"}
+ALLOWED["assembly"] |= {"modal"}
+ALLOWED["integrators"] |= {"contact", "modal"}
 ALLOWED["contact"] = {"base", "contact", "models/contacts.hpp"}
 ALLOWED["modal"] = {"base", "modal"}
 ALLOWED["scene"] = set(CHAIN[:4]) | {"scene"}

@@ -81,8 +81,8 @@ TimeHistoryResult TimeHistory::run(double duration, State& committed) {
   const double start = committed.time;
   const int steps = static_cast<int>(std::llround(duration / options_.dt));
   State trial = committed;
+  result_.energy.initial = 0.5 * committed.velocity.dot(system_.mass() * committed.velocity);
   watch_energy(committed);
-  result_.energy.initial = result_.energy.kinetic;
   const Timer clock;
   double observing = 0;
   const auto observe = [&](auto&& call) {

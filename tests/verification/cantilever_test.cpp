@@ -2,32 +2,14 @@
 // fiber the same model (tests/reference/README.md tells the origin of the numbers).
 #include <doctest/doctest.h>
 
-#include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <sstream>
-
 #include "integrators/static_analysis.hpp"
 #include "models/model.hpp"
+#include "tests/support/reference_data.hpp"
 
 using namespace nsframe;
+using namespace nsframe::test;
 
 namespace {
-
-using Rows = std::vector<std::vector<double>>;
-
-Rows read_csv(const std::string& name) {
-  std::ifstream file(std::string(NSFRAME_SOURCE_DIR) + "/tests/reference/" + name);
-  REQUIRE_MESSAGE(file, "cannot open " << name);
-  Rows rows;
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream numbers(line);
-    rows.emplace_back(std::istream_iterator<double>(numbers), std::istream_iterator<double>());
-  }
-  return rows;
-}
 
 constexpr double height = 2.5;  // [m]
 
@@ -35,7 +17,7 @@ ModelDescription cantilever(ElementKind kind, const UniaxialLaw& law, Geometry g
   ModelDescription d;
   d.materials.push_back({"steel", {}, law});
   FiberSectionDescription section;
-  for (const auto& row : read_csv("hea140_fibers.csv")) section.fibers.push_back({row[0], row[1], row[2], {"steel", {}}});
+  for (const auto& row : read_reference("hea140_fibers")) section.fibers.push_back({row[0], row[1], row[2], {"steel", {}}});
   section.torsion_stiffness = 210e9 / 2.6 * 8.13e-8;
   SectionDescription hea140;
   hea140.name = "HEA140";
@@ -97,7 +79,7 @@ class DisplacementControl {
 void compare(const std::string& kind_name, ElementKind kind, int elements, const std::string& law_name, const UniaxialLaw& law,
              Geometry geometry) {
   const std::string file = "cantilever_" + kind_name + std::to_string(elements) + "_" + law_name +
-                           (geometry == Geometry::linear ? "_linear.csv" : "_pdelta.csv");
+                           (geometry == Geometry::linear ? "_linear" : "_pdelta");
   CAPTURE(file);
   Diagnostics diagnostics;
   const Model model = build_model(cantilever(kind, law, geometry, elements), diagnostics);
@@ -107,7 +89,7 @@ void compare(const std::string& kind_name, ElementKind kind, int elements, const
   State state = virgin_state(system);
   for (int i = 1; i <= 10; ++i) solve_static(system, 0.1 * i * axial, StaticOptions{}, state);
   DisplacementControl control(system, axial, tip);
-  const Rows reference = read_csv(file);
+  const Table reference = read_reference(file);
   double peak_force = 0, peak_sag = 0, force_error = 0, sag_error = 0;
   for (const auto& row : reference) {
     if (&row != &reference.front()) control.reach(row[0], state);

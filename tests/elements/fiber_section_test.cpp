@@ -1,0 +1,71 @@
+// The SIMD kernel of fiber sections against the scalar definition, on every instruction set of this machine.
+#include <doctest/doctest.h>
+
+#include <hwy/targets.h>
+
+#include <random>
+
+#include "elements/fiber_section.hpp"
+
+using namespace nsframe;
+
+namespace {
+
+std::vector<Fiber> mixed_fibers() {
+  const std::vector<UniaxialLaw> laws{Elastic{30e9}, ElasticPP{210e9, 0.00112, -0.0009, 1e-4}, Steel01{235e6, 210e9, 0.01},
+                                      Steel02{235e6, 210e9, 0.01}, Steel02{355e6, 205e9, 0.02, 18.5, 0.925, 0.15, 0.04, 1, 0.02, 1, 20e6}};
+  std::vector<Fiber> fibers;
+  for (int i = 0; i < 53; ++i) {
+    fibers.push_back({0.01 * (i % 11 - 5), 0.012 * (i % 7 - 3), 1e-4 * (1 + i % 3), laws[static_cast<std::size_t>(i) % laws.size()]});
+  }
+  return fibers;
+}
+
+// Largest difference between kernel and scalar over a random history, relative to the largest force and stiffness.
+double largest_difference(const FiberSection& section) {
+  VectorX committed(section.history_size), kernel(section.history_size), scalar(section.history_size);
+  initialize_history(section, committed.data());
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  Vector3 deformation = Vector3::Zero();
+  double difference = 0;
+  const Matrix3 virgin = initial_tangent(section);
+  for (int step = 0; step < 300; ++step) {
+    deformation += Vector3(1e-3 * uniform(random), 0.03 * uniform(random), 0.03 * uniform(random));
+    const SectionResponse a = respond(section, deformation, committed.data(), kernel.data());
+    const SectionResponse b = respond_scalar(section, deformation, committed.data(), scalar.data());
+    for (int i = 0; i < 3; ++i) {
+      difference = std::max(difference, std::abs(a.force[i] - b.force[i]) / (virgin(i, i) * 1e-3 / (i ? 0.03 : 1)));
+      for (int j = 0; j < 3; ++j) difference = std::max(difference, std::abs(a.tangent(i, j) - b.tangent(i, j)) / std::sqrt(virgin(i, i) * virgin(j, j)));
+    }
+    committed = scalar;  // padding fibers differ in history only
+  }
+  return difference;
+}
+
+}  // namespace
+
+TEST_CASE("the SIMD kernel equals the scalar fibers on every instruction set of this machine") {
+  const FiberSection section(mixed_fibers(), 1e4);
+  CHECK(section.fibers == 53);
+  CHECK(section.blocks.size() == 5);
+  const auto supported = hwy::SupportedTargets();
+  for (auto target = supported; target != 0; target &= target - 1) {
+    const auto lowest = target & (~target + 1);
+    hwy::SetSupportedTargetsForTest(lowest);
+    CAPTURE(hwy::TargetName(lowest));
+    // powers x^R carry the rounding of R log x, about R |log x| epsilons
+    CHECK(largest_difference(section) < 1e-12);
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+TEST_CASE("a symmetric fiber rectangle has EA, EI and no coupling") {
+  std::vector<Fiber> fibers;
+  const int n = 40;
+  for (int i = 0; i < n; ++i) fibers.push_back({0.3 * ((i + 0.5) / n - 0.5), 0, 0.3 * 0.2 / n, Elastic{30e9}});
+  const Matrix3 k = initial_tangent(FiberSection(fibers, 1));
+  CHECK(k(0, 0) == doctest::Approx(30e9 * 0.06).epsilon(1e-12));
+  CHECK(k(1, 1) == doctest::Approx(30e9 * 0.2 * 0.027 / 12 * (1 - 1.0 / (n * n))).epsilon(1e-12));
+  CHECK(std::abs(k(0, 1)) < 1e-9 * k(0, 0));
+}
