@@ -8,6 +8,7 @@
 namespace nsframe {
 
 double complementarity_error(const ContactProblem& problem, const VectorX& impulse) {
+  if (problem.rhs.size() == 0) return 0;
   const VectorX rate = problem.delassus * impulse + problem.rhs;
   const double scale = std::max(problem.rhs.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
   double error = 0;
@@ -39,6 +40,13 @@ ContactSolution solve_gauss_seidel(const ContactProblem& problem, const ContactO
 
 namespace {
 
+// Error that rounding of the impulses alone makes: large where impulses are, as below a heavy mass on a light one.
+double rounding_error(const ContactProblem& problem, const VectorX& impulse) {
+  const double rates = (problem.delassus.cwiseAbs() * impulse).maxCoeff();
+  const double scale = std::max(problem.rhs.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  return 16 * static_cast<double>(impulse.size()) * std::numeric_limits<double>::epsilon() * rates / scale;
+}
+
 // Minimum-norm solution of W_AA p_A = -rhs_A on the active pairs; W_AA may be singular. W is scaled to unit diagonal.
 VectorX solve_on(const std::vector<Eigen::Index>& active, const MatrixX& W, const VectorX& rhs) {
   if (active.size() == 1) return VectorX::Constant(1, -rhs[active[0]] / W(active[0], active[0]));
@@ -53,6 +61,7 @@ VectorX solve_on(const std::vector<Eigen::Index>& active, const MatrixX& W, cons
 ContactSolution solve_active_set(const ContactProblem& problem, const ContactOptions& options) {
   const Eigen::Index n = problem.rhs.size();
   ContactSolution solution;
+  if (n == 0) return {VectorX(0), 0, 0, true};
   // unit diagonal, so that pairs between heavy and between light bodies weigh the same
   const VectorX scale = problem.delassus.diagonal().cwiseSqrt().cwiseInverse();
   const MatrixX W = scale.asDiagonal() * problem.delassus * scale.asDiagonal();
@@ -109,7 +118,7 @@ ContactSolution solve_active_set(const ContactProblem& problem, const ContactOpt
       solution.error = polished.error;
     }
   }
-  solution.converged = solution.error <= options.tolerance;
+  solution.converged = solution.error <= std::max(options.tolerance, rounding_error(problem, solution.impulse));
   return solution;
 }
 

@@ -12,7 +12,7 @@ struct ContactProblem {
 };
 
 struct ContactOptions {
-  double tolerance = 1e-12;     // of complementarity_error()
+  double tolerance = 1e-12;     // of complementarity_error(); the active set also accepts what rounding of p leaves
   int max_iterations = 100000;  // Gauss-Seidel sweeps, or active-set changes
 };
 
