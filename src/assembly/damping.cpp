@@ -92,6 +92,7 @@ void assemble_damping(System& system, const SparseMatrix& stiffness, std::vector
   for (std::size_t i = 0; i < structures.size(); ++i) {
     const DampingDescription& damping = structures[i].damping;
     const BlockRange range = system.assembler.blocks()[i];
+    if (range.size() == 0) continue;
     if (damping.kind == DampingKind::rayleigh) {
       const auto [mass_factor, stiffness_factor] = rayleigh_factors(damping);
       add(extract_block(system.model.mass, range), mass_factor, range.first);

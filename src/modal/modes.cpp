@@ -64,19 +64,51 @@ Modes solve_modes_dense(const SparseMatrix& stiffness, const SparseMatrix& mass,
   return arrange(squared, shape, mass, 1e-9 * shift);
 }
 
+namespace {
+
+// All finite modes when few DOFs have mass: condensed statically on those DOFs, F M x = mu x with F = (K + s M)^-1 there.
+Modes solve_condensed(const SparseMatrix& stiffness, const SparseMatrix& mass, const std::vector<Eigen::Index>& massive, double shift,
+                      int count) {
+  const auto rank = static_cast<Eigen::Index>(massive.size());
+  MatrixX unit = MatrixX::Zero(stiffness.rows(), rank), M(rank, rank);
+  for (Eigen::Index j = 0; j < rank; ++j) {
+    unit(massive[static_cast<std::size_t>(j)], j) = 1;
+    for (Eigen::Index i = 0; i < rank; ++i) M(i, j) = mass.coeff(static_cast<int>(massive[static_cast<std::size_t>(i)]), static_cast<int>(massive[static_cast<std::size_t>(j)]));
+  }
+  const Eigen::SimplicialLDLT<SparseMatrix> factor(SparseMatrix(stiffness + shift * mass));
+  if (factor.info() != Eigen::Success) throw std::runtime_error("the stiffness is singular on DOFs without mass");
+  const MatrixX response = factor.solve(unit);
+  const MatrixX F = response(massive, Eigen::all);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixX> solver(M, F, Eigen::ComputeEigenvectors | Eigen::BAx_lx);
+  if (solver.info() != Eigen::Success) throw std::runtime_error("the condensed eigenvalue solver failed");
+  const VectorX& mu = solver.eigenvalues();
+  std::vector<Eigen::Index> finite;
+  for (Eigen::Index i = rank - 1; i >= 0 && static_cast<int>(finite.size()) < count; --i) {
+    if (mu[i] > 1e-13 * mu[rank - 1]) finite.push_back(i);
+  }
+  VectorX squared(static_cast<Eigen::Index>(finite.size()));
+  for (Eigen::Index i = 0; i < squared.size(); ++i) squared[i] = 1 / mu[finite[static_cast<std::size_t>(i)]] - shift;
+  return arrange(squared, response * (M * solver.eigenvectors()(Eigen::all, finite)), mass, 1e-9 * shift);
+}
+
+}  // namespace
+
 Modes solve_modes_sparse(const SparseMatrix& stiffness, const SparseMatrix& mass, int count) {
   const int size = static_cast<int>(stiffness.rows());
-  int rank = 0;
-  for (int i = 0; i < size; ++i) rank += mass.coeff(i, i) > 0 ? 1 : 0;
-  const int wanted = std::min({count, rank, size - 1});
-  const int basis = std::min(size, std::max(2 * wanted + 1, 20));
+  std::vector<Eigen::Index> massive;
+  for (int i = 0; i < size; ++i) {
+    if (mass.coeff(i, i) > 0) massive.push_back(i);
+  }
+  if (massive.empty() || count < 1) return {VectorX(0), MatrixX(size, 0)};
   const double shift = definite_shift(stiffness, mass);
+  // Lanczos vectors live in the range of M: a basis as large as that would be filled up by rounding
+  const int wanted = std::min(count, static_cast<int>(massive.size())), basis = std::max(2 * wanted + 1, 20);
+  if (basis >= static_cast<int>(massive.size())) return solve_condensed(stiffness, mass, massive, shift, wanted);
   using Inverse = Spectra::SymShiftInvert<double, Eigen::Sparse, Eigen::Sparse>;
   using Product = Spectra::SparseSymMatProd<double>;
   Inverse inverse(stiffness, mass);
   Product product(mass);
   Spectra::SymGEigsShiftSolver<Inverse, Product, Spectra::GEigsMode::ShiftInvert> solver(inverse, product, wanted, basis, -shift);
-  // start in the range of K^-1 M, so that massless DOFs follow statically
   solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, 1000, 1e-12, Spectra::SortRule::SmallestAlge);
   if (solver.info() != Spectra::CompInfo::Successful) throw std::runtime_error("the sparse eigenvalue solver did not converge");
