@@ -19,7 +19,7 @@ struct SceneArguments {
   bool json = false;
 };
 
-enum ExitCode { done = 0, bad_input = 2, not_converged = 3, input_output = 4 };
+enum ExitCode { done = 0, defect = 1, bad_input = 2, not_converged = 3, input_output = 4 };
 
 int run(const SceneArguments& arguments);
 int check(const SceneArguments& arguments);

@@ -33,6 +33,9 @@ int guarded(const std::function<int()>& command) {
   } catch (const IoError& problem) {
     fmt::print(stderr, "{}\n", problem.what());
     return input_output;
+  } catch (const std::exception& problem) {
+    fmt::print(stderr, "error: {} (this is a defect of nsframe; please report it)\n", problem.what());
+    return defect;
   }
 }
 

@@ -22,7 +22,7 @@ IterationMatrix::IterationMatrix(const System& system, IterationMatrixOptions op
 
 void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness, double a) {
   ++factorizations_;
-  a_ = a;
+  a_ = -1;  // not ready, should a block fail
   responses_.assign(static_cast<std::size_t>(system.contacts().size()), VectorX());
   std::size_t structure = 0;
   std::vector<MatrixX> inverses;
@@ -53,6 +53,7 @@ void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness
     for (const Block& block : blocks_) ranges.push_back(block.range);
     inverse_ = BlockOperator(inverses, ranges);
   }
+  a_ = a;
 }
 
 void IterationMatrix::factor_dense(Block& block, MatrixX J) const {

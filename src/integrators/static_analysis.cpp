@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/errors.hpp"
 
 namespace nsframe {
@@ -22,15 +24,16 @@ VectorX solve_sparse(const SparseMatrix& K, bool symmetric, const VectorX& r) {
   return factor.solve(r);
 }
 
-// One load level by Newton; false when it does not converge.
-bool reach(System& system, const VectorX& load, const StaticOptions& options, const State& committed, State& trial,
+// One load level by Newton; false when it does not converge. `start`: norm of the internal force of the first level, which
+// is all that there is to compare with where pretension alone is released.
+bool reach(System& system, const VectorX& load, double start, const StaticOptions& options, const State& committed, State& trial,
            double& worst) {
   trial = committed;
   system.assembler.start_step(committed.history, trial.history);
   for (int iteration = 0; iteration <= options.max_iterations; ++iteration) {
     system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force);
     const VectorX residual = load - trial.internal_force;
-    const double scale = std::max(load.norm(), trial.internal_force.norm());
+    const double scale = std::max({load.norm(), trial.internal_force.norm(), start});
     worst = residual.norm() / std::max(scale, 1e-300);
     if (residual.norm() <= options.tolerance * scale) return true;
     if (!residual.allFinite()) return false;
@@ -63,7 +66,7 @@ void solve_static(System& system, const VectorX& load, const StaticOptions& opti
     bool converged = false;
     std::string reason;
     try {
-      converged = reach(system, start + level * (load - start), options, state, trial, worst);
+      converged = reach(system, start + level * (load - start), start.norm(), options, state, trial, worst);
     } catch (const ConvergenceError& problem) {
       reason = std::string(": ") + problem.what();
     }

@@ -61,10 +61,7 @@ void TimeHistory::add(const StepResult& step) {
   result_.energy.contact += step.contact;
   result_.energy.numerical += step.numerical;
   result_.energy.input += step.input;
-  for (const Impact& impact : step.impacts) {
-    result_.impacts.push_back(impact);
-    for (Observer* observer : observers_) observer->impact(impact);
-  }
+  result_.impacts.insert(result_.impacts.end(), step.impacts.begin(), step.impacts.end());
 }
 
 void TimeHistory::watch_energy(const State& state) {
@@ -96,6 +93,8 @@ TimeHistoryResult TimeHistory::run(double duration, State& committed) {
   for (int n = 1; n <= steps; ++n) {
     report_ = StepReport{};
     report_.step = n;
+    const Energy energy = result_.energy;
+    const std::size_t impacts = result_.impacts.size();
     try {
       // times from the step number, so that rounding does not add up
       const double end = start + n * options_.dt;
@@ -104,11 +103,16 @@ TimeHistoryResult TimeHistory::run(double duration, State& committed) {
     } catch (const ConvergenceError& problem) {
       result_.completed = false;
       result_.stop_reason = problem.what();
+      result_.energy = energy;  // without the substeps of the step that was given up
+      result_.impacts.resize(impacts);
       break;
     }
     ++result_.steps;
     watch_energy(trial);
-    observe([&](Observer& observer) { observer.step(committed, trial, report_, result_.energy); });
+    observe([&](Observer& observer) {
+      for (std::size_t i = impacts; i < result_.impacts.size(); ++i) observer.impact(result_.impacts[i]);
+      observer.step(committed, trial, report_, result_.energy);
+    });
     std::swap(committed, trial);
   }
   if (system_.contacts().size() > 0) {
