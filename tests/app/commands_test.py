@@ -1,0 +1,217 @@
+#!/usr/bin/env python3
+"""Runs the built program: exit codes, what it prints where, and the files it leaves."""
+import json
+import os
+import pathlib
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = pathlib.Path(sys.argv[1]).resolve()
+SOURCE = pathlib.Path(sys.argv[2]).resolve()
+BALL = SOURCE / "examples/bouncing_ball/scene.toml"
+PAIR = SOURCE / "examples/two_story_elastic/scene.toml"
+
+# A mass on a yielding spring that one Newton iteration cannot follow once it yields.
+STUBBORN = """
+[material.bilinear]
+law = "Steel01"
+fy = 1000
+E = 1e5
+b = 0.01
+[structure.s]
+nodes = [[1, 0, 0, 0]]
+supports = { 1 = ["uy", "uz", "rx", "ry", "rz"] }
+masses = { 1 = "100 kg" }
+springs = [{ id = "k", nodes = 1, law = { ux = "bilinear" } }]
+initial_velocity = [[1, "ux", "1 m/s"]]
+[analysis]
+dt = "1 ms"
+duration = "0.2 s"
+max_newton = 1
+max_halvings = 2
+[output]
+history = ["nodes", "energy"]
+"""
+
+
+def matrix_market(path):
+    """Size and entries of a Matrix Market file, coordinate or array."""
+    lines = [line for line in path.read_text().splitlines() if line and not line.startswith("%")]
+    head = [int(word) for word in lines[0].split()]
+    if len(head) == 2:
+        return head, [float(line) for line in lines[1:]]
+    entries = {}
+    for line in lines[1:]:
+        i, j, value = line.split()
+        entries[int(i), int(j)] = float(value)
+    assert len(entries) == head[2], f"{path.name}: {head[2]} entries announced, {len(entries)} found"
+    return head[:2], entries
+
+
+class Commands(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.folder = pathlib.Path(self.temporary.name)
+
+    def tearDown(self):
+        self.temporary.cleanup()
+
+    def nsframe(self, *arguments, code=0):
+        done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, code, f"{arguments}\n{done.stdout}\n{done.stderr}")
+        return done
+
+    def scene(self, text, name="s.toml"):
+        (self.folder / name).write_text(text)
+        return self.folder / name
+
+    def summary(self, folder="out"):
+        return json.loads((self.folder / folder / "summary.json").read_text())
+
+    def test_a_run_ends_with_0_and_leaves_its_results(self):
+        done = self.nsframe("run", BALL, "-o", "out", "--set", "output.frames=0")
+        self.assertIn("results in out", done.stdout)
+        self.assertEqual(done.stderr, "", "no progress bar when standard error is not a terminal")
+        for name in ("summary.json", "results.h5", "scene.toml"):
+            self.assertTrue((self.folder / "out" / name).stat().st_size > 0, name)
+        self.assertTrue(self.summary()["completed"])
+
+    def test_the_scene_of_a_run_repeats_it(self):
+        self.nsframe("run", BALL, "-o", "out", "-q", "--set", "output.frames=0", "--set", "contact.restitution=0.7")
+        self.nsframe("run", "out/scene.toml", "-o", "again", "-q")
+        first, second = self.summary(), self.summary("again")
+        self.assertEqual(first["impacts"], second["impacts"])
+        self.assertEqual(first["energy"], second["energy"])
+
+    def test_without_an_output_folder_results_go_below_the_present_one(self):
+        self.nsframe("run", BALL, "-q", "--set", "output.frames=0", "--set", "analysis.duration=0.1")
+        self.assertTrue((self.folder / "results/bouncing_ball/summary.json").exists())
+
+    def test_quiet_prints_nothing(self):
+        for command in ("run", "export"):
+            done = self.nsframe(command, BALL, "-o", "out", "--quiet", "--set", "analysis.duration=0.1")
+            self.assertEqual(done.stdout + done.stderr, "", command)
+
+    def test_bad_input_ends_with_2_and_says_where(self):
+        bad = self.scene("[analysis]\ntheta = 2\nstep = 1\n")
+        done = self.nsframe("run", bad, "-o", "out", code=2)
+        self.assertEqual(done.stdout, "")
+        self.assertIn("s.toml:2:9: error: theta = 2, must lie in [0.5, 1]", done.stderr)
+        self.assertIn("s.toml:3:1: error: unknown key 'step'", done.stderr)
+        self.assertFalse((self.folder / "out").exists())
+        self.nsframe("run", BALL, "--fast", code=2)
+        self.nsframe("walk", BALL, code=2)
+        self.nsframe("run", code=2)
+        self.nsframe(code=2)
+        self.nsframe("run", BALL, "--threads", "0", code=2)
+        done = self.nsframe("run", BALL, "--set", "analysis.thetta=1", code=2)
+        self.assertIn("did you mean 'theta'", done.stderr)
+        self.nsframe("run", BALL, "--set", "analysis.theta", code=2)
+        self.nsframe("run", BALL, "--set", "analysis.theta=banana", code=2)
+
+    def test_a_scene_that_is_not_there_is_bad_input(self):
+        done = self.nsframe("run", "nowhere.toml", code=2)
+        self.assertEqual(done.stderr, "nowhere.toml: error: cannot open the scene\n")
+
+    def test_bad_input_leaves_an_earlier_result_as_it_is(self):
+        self.nsframe("run", BALL, "-o", "out", "-q", "--set", "analysis.duration=0.1")
+        before = {path.name: (path.read_bytes(), path.stat().st_mtime_ns) for path in (self.folder / "out").iterdir() if path.is_file()}
+        self.nsframe("run", BALL, "-o", "out", "--set", "analysis.theta=3", code=2)
+        self.nsframe("run", BALL, "-o", "out", "--set", "ball.supports=3", code=2)
+        after = {path.name: (path.read_bytes(), path.stat().st_mtime_ns) for path in (self.folder / "out").iterdir() if path.is_file()}
+        self.assertEqual(before, after)
+
+    def test_an_unstable_structure_ends_with_2_and_is_named(self):
+        text = STUBBORN.replace('springs = [{ id = "k", nodes = 1, law = { ux = "bilinear" } }]', "")
+        done = self.nsframe("check", self.scene(text), code=2)
+        self.assertIn("s.toml:7:12: error: structure 's' is unstable: node 's.1' moves in ux", done.stderr)
+
+    def test_a_run_that_does_not_converge_ends_with_3_and_keeps_what_it_has(self):
+        done = self.nsframe("run", self.scene(STUBBORN), "-o", "out", code=3)
+        self.assertRegex(done.stderr, r"error: stopped at t = 0\.\d+ s: Newton did not converge at t = .*, largest in element 's\.k'")
+        self.assertIn("what was computed until then is kept in out", done.stderr)
+        summary = self.summary()
+        self.assertFalse(summary["completed"])
+        self.assertGreater(summary["steps"], 5)
+        self.assertLess(summary["steps"], 200)
+        content = (self.folder / "out/results.h5").read_bytes()
+        self.assertEqual(content[:8], b"\x89HDF\r\n\x1a\n")
+        # a closed HDF5 file is as long as its superblock says (version 2 and 3: end-of-file address at byte 28; 0: at 40)
+        at = 40 if content[8] == 0 else 28
+        self.assertEqual(int.from_bytes(content[at:at + 8], "little"), len(content))
+
+    def test_a_folder_that_cannot_be_written_ends_with_4(self):
+        (self.folder / "file").write_text("")
+        done = self.nsframe("run", BALL, "-o", "file/out", code=4)
+        self.assertIn("cannot create folder 'file/out'", done.stderr)
+        if os.geteuid() == 0:
+            return  # root may write everywhere
+        locked = self.folder / "locked"
+        locked.mkdir()
+        locked.chmod(stat.S_IRUSR | stat.S_IXUSR)
+        self.nsframe("run", BALL, "-o", "locked", code=4)
+        self.nsframe("export", BALL, "-o", "locked/out", code=4)
+
+    def test_check_prints_the_model_in_plain_words(self):
+        text = self.nsframe("check", PAIR).stdout
+        for words in ("structure 'left': ", "structure 'right': ", "contact pairs: 4", "mode L1", "linear, the iteration matrix is factored once",
+                      "scheme moreau-jean: theta = 1, gamma = 1.5, dt = 0.001 s, 20 s, 20000 steps"):
+            self.assertIn(words, text)
+
+    def test_modes_are_printed_as_a_table_and_as_json(self):
+        table = self.nsframe("modes", PAIR).stdout.splitlines()
+        modes = json.loads(self.nsframe("modes", PAIR, "--json").stdout)
+        self.assertEqual(len(table), 1 + len(modes))
+        first = modes[0]
+        self.assertEqual((first["structure"], first["mode"]), ("left", "L1"))
+        self.assertAlmostEqual(first["frequency"], 2.10, delta=0.005)  # Table 7 of the paper, within 0.2 %
+        self.assertAlmostEqual(first["damping_ratio"], 0.007, places=9)
+        self.assertEqual(len(first["participation"]), 3)
+        for structure in ("left", "right"):
+            frequencies = [mode["frequency"] for mode in modes if mode["structure"] == structure]
+            self.assertEqual(frequencies, sorted(frequencies))
+
+    def test_export_writes_matrices_of_the_right_sizes(self):
+        self.nsframe("export", PAIR, "-o", "out")
+        out = self.folder / "out"
+        dofs = len((out / "dofs.csv").read_text().splitlines()) - 1
+        self.assertIn(f"{dofs} free DOFs", self.nsframe("check", PAIR).stdout)
+        matrices = {name: matrix_market(out / f"{name}.mtx") for name in "MCKH"}
+        for name in "MCK":
+            size, entries = matrices[name]
+            self.assertEqual(size, [dofs, dofs], name)
+            largest = max(abs(value) for value in entries.values())
+            for (i, j), value in entries.items():  # rounding of the assembly
+                self.assertLessEqual(abs(value - entries.get((j, i), 0)), 1e-14 * largest, f"{name}({i}, {j})")
+        self.assertEqual(matrices["H"][0], [4, dofs])
+        self.assertEqual(len((out / "contacts.csv").read_text().splitlines()), 5)
+        size, loads = matrix_market(out / "loads.mtx")
+        self.assertEqual(size, [dofs, 2])
+        self.assertAlmostEqual(sum(loads[dofs:]), -(2 * 4600 + 2 * 3500), delta=1e-8)  # -M iota
+
+    def test_the_expanded_scene_runs_to_the_same_summary(self):
+        short = ("--set", "analysis.duration=3 s", "--set", "output.frames=0")
+        self.nsframe("export", PAIR, "-o", "out", "-q", *short)
+        self.nsframe("run", PAIR, "-o", "one", "-q", *short)
+        self.nsframe("run", "out/scene_expanded.toml", "-o", "two", "-q")
+        one, two = self.summary("one"), self.summary("two")
+        self.assertGreater(len(one["impacts"]), 0)
+        for key in set(one) - {"timing", "title"}:
+            self.assertEqual(one[key], two[key], key)
+
+    def test_reference_prints_the_documentation_of_scenes(self):
+        self.assertEqual(self.nsframe("reference").stdout, (SOURCE / "docs/scene-reference.md").read_text())
+
+    def test_help_fits_a_screen(self):
+        for arguments in ((), ("run",), ("check",), ("modes",), ("export",), ("reference",)):
+            lines = self.nsframe(*arguments, "--help").stdout.splitlines()
+            self.assertLessEqual(len(lines), 40, arguments)
+            self.assertGreater(len(lines), 2, arguments)
+            self.assertLessEqual(max(map(len, lines)), 120, arguments)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
