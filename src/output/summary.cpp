@@ -105,11 +105,11 @@ double excess(const ModeNumerics& mode) {
   return (mode.damping_effective - mode.damping_asked) / std::max(mode.damping_asked, 1e-3);
 }
 
-// Modes whose damping the scene sets; all of them when it sets none.
+// Modes whose damping the scene sets (others have a ratio of rounding size); all of them when it sets none.
 std::vector<ModeNumerics> modes_that_matter(const Summary& summary) {
   std::vector<ModeNumerics> modes;
   std::copy_if(summary.modes.begin(), summary.modes.end(), std::back_inserter(modes),
-               [](const auto& mode) { return mode.damping_asked > 0; });
+               [](const auto& mode) { return mode.damping_asked > 1e-9; });
   return modes.empty() ? summary.modes : modes;
 }
 

@@ -123,7 +123,7 @@ void put_modes(Buffer& out, const Summary& summary) {
        "asked, %", "added, %", "in all, %");
   for (std::size_t i = 0; i < std::min(most_rows, summary.modes.size()); ++i) {
     const ModeNumerics& m = summary.modes[i];
-    line(out, "  {:<26} {:<6} {:>13.4g} {:>14.4g} {:>9.3g} {:>9.3g} {:>10.3g}", shortened(m.structure, 26),
+    line(out, "  {:<26} {:<6} {:>13.4g} {:>14.4g} {:>9.3f} {:>9.3f} {:>10.3f}", shortened(m.structure, 26),
          shortened(m.mode, 6), m.frequency, m.frequency_effective, 100 * m.damping_asked,
          100 * (m.damping_effective - m.damping_asked), 100 * m.damping_effective);
   }
