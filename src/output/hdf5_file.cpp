@@ -36,9 +36,13 @@ std::string hdf5_error() {
 template <class Value>
 hid_t native_type();
 template <>
-hid_t native_type<double>() { return H5T_NATIVE_DOUBLE; }
+hid_t native_type<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
 template <>
-hid_t native_type<int>() { return H5T_NATIVE_INT; }
+hid_t native_type<int>() {
+  return H5T_NATIVE_INT;
+}
 
 // Metadata goes to the file only with a flush: between two of them, the file on disk is the one of the last.
 // Formats up to 1.8 have no mark "open for writing", with which readers refuse a file whose writer died.
@@ -245,10 +249,10 @@ Hdf5Series<Value>::Hdf5Series(Hdf5File& file, const std::string& name, std::vect
   file.check(H5Pset_chunk(properties, int(chunk.size()), chunk.data()), name);
   const Hdf5Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(links, 1);
-  data_set_ = Hdf5Id(file.check(H5Dcreate2(file.id(), name.c_str(), native_type<Value>(), space, links, properties,
-                                           H5P_DEFAULT),
-                                name),
-                     H5Dclose);
+  data_set_ = Hdf5Id(
+      file.check(H5Dcreate2(file.id(), name.c_str(), native_type<Value>(), space, links, properties, H5P_DEFAULT),
+                 name),
+      H5Dclose);
   buffer_.reserve(row_size_ * block);
 }
 

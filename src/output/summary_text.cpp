@@ -100,8 +100,8 @@ void put_peaks(Buffer& out, const Summary& summary) {
   for (std::size_t i = 0; i < rows; ++i) {
     const Peak& p = peaks[i];
     const Vector3 d = 1e3 * p.displacement, a = p.acceleration;
-    line(out, "  {:<24} {:>8.2f}{:>8.2f}{:>8.2f}  {:>10.5f}  {:>8.2f}{:>8.2f}{:>8.2f}  {:>8.3f}",
-         shortened(p.node, 24), d.x(), d.y(), d.z(), p.twist, a.x(), a.y(), a.z(), p.velocity.maxCoeff());
+    line(out, "  {:<24} {:>8.2f}{:>8.2f}{:>8.2f}  {:>10.5f}  {:>8.2f}{:>8.2f}{:>8.2f}  {:>8.3f}", shortened(p.node, 24),
+         d.x(), d.y(), d.z(), p.twist, a.x(), a.y(), a.z(), p.velocity.maxCoeff());
   }
   if (peaks.size() > rows) line(out, "  ... and {} more nodes with less displacement", peaks.size() - rows);
 }

@@ -162,7 +162,8 @@ TEST_CASE("HDF5 reads back displacement, velocity and absolute acceleration of t
       const auto at = static_cast<std::size_t>(12 * row + 6 + k);
       CHECK(displacement[at] == doctest::Approx(q[6 * node + k] * (row > 0 ? Steps::factor(row) : 1)).epsilon(1e-14));
       CHECK(velocity[at] == doctest::Approx(v[6 * node + k] * (row > 0 ? Steps::factor(row) : 1)).epsilon(1e-14));
-      double expected = row == 0 ? 0 : v[6 * node + k] * (Steps::factor(row) - (row > 1 ? Steps::factor(row - 1) : 1)) / 1e-3;
+      double expected =
+          row == 0 ? 0 : v[6 * node + k] * (Steps::factor(row) - (row > 1 ? Steps::factor(row - 1) : 1)) / 1e-3;
       if (row > 0 && k == 0) {
         expected += (model.motions[0].velocity_at(1e-3 * row) - model.motions[0].velocity_at(1e-3 * (row - 1))) / 1e-3;
       }
