@@ -21,6 +21,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <string>
 
 #include "base/errors.hpp"
@@ -200,6 +201,10 @@ void VtkFrames::Writer::write(const State& state) {
   if (const double largest = largest_norm(fields_.displacement); largest > largest_displacement_) {
     largest_displacement_ = largest;
     largest_time_ = state.time;
+  }
+  // VTK keeps the ranges of arrays until it is told that their values have changed.
+  for (vtkFieldData* owner : std::initializer_list<vtkFieldData*>{grid_->GetPointData(), grid_->GetCellData()}) {
+    for (int i = 0; i < owner->GetNumberOfArrays(); ++i) owner->GetArray(i)->Modified();
   }
   grid_->Modified();
 

@@ -222,10 +222,12 @@ TEST_CASE("frames are the steps nearest to the frame times, and sum the impulses
   const TemporaryFolder folder;
   const Model model = sample_pair();
   VtkFrames frames(folder.path(), at_rate(250));
-  State before = sample_state(model);
+  const State moved = sample_state(model);
+  State before = moved;
+  before.displacement.setZero();
   frames.start(model, before);
   for (int i = 1; i <= 20; ++i) {
-    State after = before;
+    State after = moved;
     after.time = 1e-3 * i;
     after.impulse = VectorX::Zero(4);
     after.impulse[2] = 10;
@@ -242,6 +244,10 @@ TEST_CASE("frames are the steps nearest to the frame times, and sum the impulses
   double sum = 0;
   for (vtkIdType i = 0; i < impulse->GetNumberOfTuples(); ++i) sum += impulse->GetComponent(i, 0);
   CHECK(sum == 40);
+  CHECK(impulse->GetFiniteRange(0)[1] == 40);  // also as the file says it, where ParaView takes its colours from
+  double displacement[2];
+  grid->GetPointData()->GetArray("displacement")->GetRange(displacement, -1);
+  CHECK(displacement[1] > 0);
   vtkDataArray* gap = grid->GetCellData()->GetArray("gap");
   const VectorX expected = model.contacts.jacobian * before.displacement + model.contacts.initial_gap;
   CHECK(gap->GetComponent(grid->GetNumberOfCells() - 4, 0) == doctest::Approx(expected[0]).epsilon(1e-14));
