@@ -306,6 +306,9 @@ void Reader::read(const Value& value, const Field& field, StructureTable& out) {
       read_entries(table_entries(table), value.at, parametric, "model");
     return;
   }
+  for (const char* key : {"stories", "plan"})
+    if (table.contains(key) && !table.contains("nodes"))
+      return error(value.at, fmt::format("'{}' needs model = \"story_frame\"; an explicit structure has nodes", key));
   auto& structure = out.emplace<ExplicitStructure>();
   structure.name = name;
   read_entries(table_entries(table), value.at, structure);

@@ -130,7 +130,7 @@ statically_first = false
 contact_solver = "gauss-seidel"
 threads = 2
 [output]
-nodes = ["a.top", "b.11"]
+nodes = ["a.top", "b.101"]
 )";
 
 }  // namespace
