@@ -106,6 +106,18 @@ TEST_CASE("a missing key is an error at its table") {
   CHECK(error("[structure.a]\nnodes = [[1, 0, 0]]") == "s.toml:2:10: error: missing key 'z'");
 }
 
+TEST_CASE("an empty name is an error") {
+  CHECK(error("[structure.a]\nnodes = []\nsupports = { \"\" = \"fixed\" }") ==
+        "s.toml:3:14: error: node is empty, must be a name");
+  CHECK(error("[section.a]\nshape = \"HEA100\"\nmaterial = \"\"") ==
+        "s.toml:3:12: error: material is empty, must be a name");
+}
+
+TEST_CASE("a table's name that is none is an error") {
+  Diagnostics diagnostics;
+  CHECK_THROWS_AS(parse_scene("[=ection.a]\n", "s.toml", {}, {}, diagnostics), InputError);
+}
+
 TEST_CASE("a row of too many values is an error") {
   CHECK(error("[structure.a]\nnodes = [[1, 0, 0, 0, 0]]") ==
         "s.toml:2:10: error: a row of nodes has at most 4 values, not 5");
