@@ -113,8 +113,11 @@ HWY_INLINE Response<T, Steel02> respond(const Steel02& law, T strain_from_zero, 
   const T inverse_R = T(1 / law.R0) * below * below * (inverse * strain_range);
   const T inverse_range = inverse * above * below;
   const T ratio = (strain - h.reversal_strain) * inverse_range;
-  const T curve = one + pow(abs(ratio), R);
-  const T bend = T(1 - law.b) * pow(curve, -(one + inverse_R));  // (1 - b) / curve^(1 + 1/R)
+  T curve = one, bend = T(1 - law.b);  // bend = (1 - b) / curve^(1 + 1/R)
+  if (!all(R * log2_bound(abs(ratio)) < T(-54.0))) {  // else |e*|^R is lost against 1 by rounding: a straight line
+    curve = one + pow(abs(ratio), R);
+    bend = bend * pow(curve, -(one + inverse_R));
+  }
   const T stress = h.reversal_stress + stress_range * ratio * (T(law.b) + bend * curve);
   const T tangent = (T(law.b) + bend) * (stress_range * inverse_range);
 
