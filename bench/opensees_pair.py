@@ -5,6 +5,7 @@ OpenSees: modalDampingQ, BandSPD, KrylovNewton; Newmark's average acceleration. 
 Units: N, m, s. x is the direction of pounding, z is up.
 """
 import argparse
+import importlib.metadata
 import json
 import math
 import os
@@ -172,6 +173,13 @@ def build(a, record):
     return frequencies
 
 
+def version():
+    try:
+        return "%s (openseespy %s)" % (ops.version(), importlib.metadata.version("openseespy"))
+    except importlib.metadata.PackageNotFoundError:
+        return ops.version()
+
+
 def march(dt, steps):
     """Steps of dt; a step that OpenSees cannot close is taken in 2, 4, ... 256 parts. Code, steps taken in parts."""
     done = parted = 0
@@ -222,13 +230,17 @@ def main():
             if a.history and run == 0:
                 ops.recorder("Node", "-file", path, "-precision", 14, "-time", "-node",
                              *[tag(frame, 2, corner) for frame, corner in ROOF], "-dof", 1, "disp")
+            ops.recorder("EnvelopeNode", "-file", os.path.join(folder, "peaks.txt"), "-precision", 10, "-node",
+                         *[tag(frame, 2, corner) for frame, corner in ROOF], "-dof", 1, "disp")
             start = time.process_time()
             code, parted = march(a.dt, steps)
             cpu.append((time.process_time() - start) / steps)
             end = ops.getTime()
             equations = ops.systemSize()
+            ops.remove("recorders")
+            with open(os.path.join(folder, "peaks.txt")) as file:  # lines: least, largest, largest absolute value
+                peaks = [float(word) for word in file.read().split("\n")[2].split()]
             if a.history and run == 0:
-                ops.remove("recorders")
                 with open(path) as file:
                     rows = [[float(word) for word in line.split()] for line in file if line.strip()]
                 rows = [row for row in rows if abs(row[0] / a.history - round(row[0] / a.history)) < 1e-6]
@@ -236,8 +248,8 @@ def main():
                 break
     ops.wipe()
     with open(a.result, "w") as file:
-        json.dump(dict(version=ops.version(), completed=code == 0, end_time=end, steps=steps, equations=equations, parted_steps=parted,
-                       step_us=1e6 * min(cpu), step_us_all=[1e6 * c for c in cpu], frequencies=frequencies,
+        json.dump(dict(version=version(), completed=code == 0, end_time=end, steps=steps, equations=equations, parted_steps=parted,
+                       step_us=1e6 * min(cpu), step_us_all=[1e6 * c for c in cpu], frequencies=frequencies, peaks=peaks,
                        time=[row[0] for row in rows], roof=[[row[1 + k] for row in rows] for k in range(len(ROOF))]), file)
 
 
