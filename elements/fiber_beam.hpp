@@ -14,8 +14,11 @@ using Matrix3x5 = Eigen::Matrix<double, 3, 5>;
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
+inline constexpr int max_points = 10;  // integration points of a member
+
 class FiberBeams : public ElementGroup {
  public:
+  // `points`: 2 to max_points.
   FiberBeams(bool p_delta, int points) : p_delta_(p_delta), rule_(gauss_lobatto(points)) {}
   void add(const ElementNodes& nodes, std::string id, const BeamFrame& frame,
            std::shared_ptr<const FiberSection> section, SectionOutline outline);

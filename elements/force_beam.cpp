@@ -53,34 +53,44 @@ void ForceBeams::initialize_history(int element, double* history) const {
     head.section_force(i) = virgin.force;
     head.section_tangent(i) = virgin.tangent;
   }
-  balance(e, Vector5::Zero(), history);
+  PointMatrices flexibility;
+  balance(e, Vector5::Zero(), history, flexibility);
 }
 
 void ForceBeams::start_step(int, const double* committed, double* trial) const {
   std::copy_n(committed, head_size(), trial);
 }
 
-// Basic forces and element tangent from the linearised sections: sum w b'(e + f (b q - s)) = v.
-void ForceBeams::balance(const Element& element, const Vector5& deformation, double* data) const {
+// Basic forces and element tangent from the linearised sections: sum w b'(e + f (b q - s)) = v. Fills f.
+void ForceBeams::balance(const Element& element, const Vector5& deformation, double* data, PointMatrices& f) const {
+  constexpr std::array<int, 5> component{0, 1, 1, 2, 2};  // of the section force that a basic force makes
   Head head(data);
   Matrix5 flexibility = Matrix5::Zero();
   Vector5 wanted = deformation;
   for (int i = 0; i < points(); ++i) {
     const auto at = static_cast<std::size_t>(i);
-    const Matrix3x5 b = force_interpolation(rule_.position[at]);
-    const Matrix3 f = head.section_tangent(i).inverse();
-    const double weight = rule_.weight[at] * element.frame.length;
-    flexibility += weight * (b.transpose() * f * b);
-    wanted -= weight * (b.transpose() * (head.section_deformation(i) - f * head.section_force(i)));
+    f[at] = head.section_tangent(i).inverse();
+    const double x = rule_.position[at], weight = rule_.weight[at] * element.frame.length;
+    const std::array<double, 5> b{1, x - 1, x, x - 1, x};  // the entries of force_interpolation(x)
+    const Vector3 remaining = weight * (head.section_deformation(i) - f[at] * head.section_force(i));
+    for (int j = 0; j < 5; ++j) {
+      const auto column = static_cast<std::size_t>(j);
+      wanted[j] -= b[column] * remaining[component[column]];
+      for (int k = 0; k <= j; ++k) {
+        const auto row = static_cast<std::size_t>(k);
+        flexibility(k, j) += weight * b[row] * b[column] * f[at](component[row], component[column]);
+      }
+    }
   }
+  flexibility.triangularView<Eigen::StrictlyLower>() = flexibility.transpose();
   head.tangent = flexibility.inverse();
   head.force = head.tangent * wanted;
 }
 
 // Moves every section by `length` times its correction and evaluates it there. Returns the slope of the strain energy
 // along the correction: the work on it of the section forces in excess of the basic forces, which do none.
-double ForceBeams::move_sections(const Element& element, const std::vector<Vector3>& start,
-                                 const std::vector<Vector3>& correction, double length, const double* committed,
+double ForceBeams::move_sections(const Element& element, const PointVectors& start, const PointVectors& correction,
+                                 double length, const double* committed,
                                  double* trial) const {
   Head head(trial);
   double slope = 0;
@@ -106,16 +116,17 @@ void ForceBeams::find_sections(int element, const Vector5& deformation, double r
   const Element& e = element_at(element);
   Head head(trial);
   const Head before(const_cast<double*>(committed));
-  std::vector<Vector3> start(static_cast<std::size_t>(points())), correction(start.size());
+  PointMatrices flexibility;
+  PointVectors start, correction;
   for (int iteration = 0;; ++iteration) {
-    balance(e, deformation, trial);
+    balance(e, deformation, trial, flexibility);
     // energies of the unbalanced, the changed and the whole section forces on the sections' flexibility
     double unbalance = 0, change = 0, scale = 0;
     for (int i = 0; i < points(); ++i) {
       const auto at = static_cast<std::size_t>(i);
       const Vector3 wanted = force_interpolation(rule_.position[at]) * head.force;
       const Vector3 changed = wanted - before.section_force(i), out_of_balance = wanted - head.section_force(i);
-      const Matrix3 f = head.section_tangent(i).inverse();
+      const Matrix3& f = flexibility[at];
       start[at] = head.section_deformation(i);
       correction[at] = f * out_of_balance;
       const double weight = rule_.weight[at] * e.frame.length;

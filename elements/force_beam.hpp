@@ -21,9 +21,11 @@ class ForceBeams : public FiberBeams {
   int head_size() const override { return 30 + 15 * points(); }
 
  private:
-  void balance(const Element& element, const Vector5& deformation, double* data) const;
-  double move_sections(const Element& element, const std::vector<Vector3>& start, const std::vector<Vector3>& correction,
-                       double length, const double* committed, double* trial) const;
+  using PointVectors = std::array<Vector3, max_points>;
+  using PointMatrices = std::array<Matrix3, max_points>;
+  void balance(const Element& element, const Vector5& deformation, double* data, PointMatrices& flexibility) const;
+  double move_sections(const Element& element, const PointVectors& start, const PointVectors& correction, double length,
+                       const double* committed, double* trial) const;
   // `rounding`: of the basic deformations [m, rad], for elements that do not deform at all.
   void find_sections(int element, const Vector5& deformation, double rounding, const double* committed, double* trial) const;
 };

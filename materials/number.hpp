@@ -27,6 +27,8 @@ inline bool all(bool mask) { return mask; }
 inline bool both(bool a, bool b) { return a && b; }
 // x^p for x >= 0.
 inline double pow(double x, double p) { return std::pow(x, p); }
+// A whole number above the logarithm of x >= 0 to base 2 (its exponent plus one), cheap.
+inline double log2_bound(double x) { return x > 0 ? std::ilogb(x) + 1.0 : -1023.0; }
 
 using LaneTag = hn::ScalableTag<double>;
 
@@ -63,6 +65,16 @@ inline Lanes pow(Lanes x, Lanes p) {
   const LaneTag tag;
   const auto logarithm = hn::Log(tag, hn::Max(x.lanes, hn::Set(tag, 1e-300)));
   return hn::Exp(tag, hn::Min(hn::Mul(p.lanes, logarithm), hn::Set(tag, 700.0)));
+}
+
+inline Lanes log2_bound(Lanes x) {
+  const hn::RebindToUnsigned<LaneTag> bits;
+  const hn::RebindToSigned<LaneTag> integers;
+  const auto exponent = hn::BitCast(integers, hn::ShiftRight<52>(hn::BitCast(bits, x.lanes)));
+  // 2^52 + exponent as bits of a double, less 2^52: exact, and available on every instruction set
+  const auto magic = hn::Set(integers, 0x4330000000000000LL);
+  const auto number = hn::BitCast(LaneTag(), hn::Or(exponent, magic));
+  return hn::Sub(number, hn::Set(LaneTag(), 4503599627370496.0 + 1022.0));
 }
 
 }  // namespace HWY_NAMESPACE

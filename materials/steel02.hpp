@@ -104,14 +104,22 @@ HWY_INLINE Response<T, Steel02> respond(const Steel02& law, T strain_from_zero, 
   h.target_strain = select(reversed, select(rising, h.largest_strain, h.least_strain), h.target_strain);
   h.direction = select(reversed, sign, h.direction);
 
+  // R = R0 above / below with below = cR2 + x, above = cR2 + (1 - cR1) x; one division serves R, 1/R and e*
   const T excursion = abs(h.target_strain - h.asymptote_strain) * T(1 / yield_strain);
-  const T R = T(law.R0) * (one - T(law.cR1) * excursion / (T(law.cR2) + excursion));
+  const T below = T(law.cR2) + excursion, above = T(law.cR2) + T(1 - law.cR1) * excursion;
   const T strain_range = h.asymptote_strain - h.reversal_strain, stress_range = h.asymptote_stress - h.reversal_stress;
-  const T ratio = (strain - h.reversal_strain) / strain_range;
-  const T curve = one + pow(abs(ratio), R);
-  const T root = pow(curve, one / R);
-  const T stress = h.reversal_stress + stress_range * ratio * (T(law.b) + T(1 - law.b) / root);
-  const T tangent = (T(law.b) + T(1 - law.b) / (curve * root)) * stress_range / strain_range;
+  const T inverse = one / (above * below * strain_range);
+  const T R = T(law.R0) * above * above * (inverse * strain_range);
+  const T inverse_R = T(1 / law.R0) * below * below * (inverse * strain_range);
+  const T inverse_range = inverse * above * below;
+  const T ratio = (strain - h.reversal_strain) * inverse_range;
+  T curve = one, bend = T(1 - law.b);  // bend = (1 - b) / curve^(1 + 1/R)
+  if (!all(R * log2_bound(abs(ratio)) < T(-54.0))) {  // else |e*|^R is lost against 1 by rounding: a straight line
+    curve = one + pow(abs(ratio), R);
+    bend = bend * pow(curve, -(one + inverse_R));
+  }
+  const T stress = h.reversal_stress + stress_range * ratio * (T(law.b) + bend * curve);
+  const T tangent = (T(law.b) + bend) * (stress_range * inverse_range);
 
   h.strain = strain;
   h.stress = select(unmoved, committed.stress, stress);

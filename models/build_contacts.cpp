@@ -14,6 +14,7 @@ constexpr double level_tolerance = 1e-3;  // [m] nodes nearer than this count as
 struct PairDraft {
   ContactPair pair;
   double gap, restitution;
+  Location at;
 };
 
 class ContactBuilder {
@@ -82,7 +83,8 @@ double ContactBuilder::level(const Slab& slab) const {
 std::vector<const Slab*> ContactBuilder::slabs_of(int description) const {
   std::vector<const Slab*> slabs;
   for (const Slab& slab : model_.slabs) {
-    if (slab.description == description) slabs.push_back(&slab);
+    const bool complete = std::find(slab.corners.begin(), slab.corners.end(), -1) == slab.corners.end();
+    if (slab.description == description && complete) slabs.push_back(&slab);  // a missing corner is reported already
   }
   std::sort(slabs.begin(), slabs.end(), [this](const Slab* a, const Slab* b) { return level(*a) < level(*b); });
   return slabs;
@@ -107,9 +109,9 @@ void ContactBuilder::add_pair(const ContactDescription& contact, int a, int b, s
   const double open = given ? contact.gap[index % contact.gap.size()] : (position(b) - position(a)).dot(contact.direction);
   const std::string name = fmt::format("{}|{}", model_.nodes.id[static_cast<std::size_t>(a)], other);
   if (!given && open < 0) {
-    diagnostics_.error(contact.at, fmt::format("contact {}: the coordinates overlap by {:g} m; give the gap or move a structure", name, -open));
+    diagnostics_.error(contact.at, fmt::format("contact '{}': the coordinates overlap by {:g} m; give the gap or move a structure", name, -open));
   }
-  drafts_.push_back({{name, a, b, contact.direction, rigid}, open, contact.restitution});
+  drafts_.push_back({{name, a, b, contact.direction, rigid}, open, contact.restitution, contact.at});
 }
 
 void ContactBuilder::add_nodes(const ContactDescription& contact) {
@@ -186,7 +188,8 @@ Contacts ContactBuilder::finish() const {
   contacts.jacobian = full * model_.dofs.transformation;
   for (int i = 0; i < count; ++i) {
     if (contacts.jacobian.row(i).norm() == 0) {
-      diagnostics_.error({}, fmt::format("contact {}: both sides are held by supports", drafts_[static_cast<std::size_t>(i)].pair.name));
+      const PairDraft& draft = drafts_[static_cast<std::size_t>(i)];
+      diagnostics_.error(draft.at, fmt::format("contact '{}': both sides are held by supports in its direction", draft.pair.name));
     }
   }
   return contacts;

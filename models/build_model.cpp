@@ -51,14 +51,13 @@ class ModelBuilder {
     lay_out_histories();
     find_structures();
     release_unstressed_rotations();
-    diagnostics_.throw_if_any();
     number_dofs();
+    for (const StructureDescription& structure : description_.structures) set_initial_values(structure);
+    model_.contacts = build_contacts(description_, model_, diagnostics_);
+    require_freedom();
     diagnostics_.throw_if_any();
     assemble_constants();
-    for (const StructureDescription& structure : description_.structures) set_initial_values(structure);
     add_motions();
-    model_.contacts = build_contacts(description_, model_, diagnostics_);
-    diagnostics_.throw_if_any();
     return std::move(model_);
   }
 
@@ -72,7 +71,9 @@ class ModelBuilder {
   void lay_out_histories();
   void find_structures();
   void release_unstressed_rotations();
+  VectorX resistance() const;
   void number_dofs();
+  void require_freedom();
   void assemble_constants();
   void set_initial_values(const StructureDescription& structure);
   void add_motions();
@@ -88,13 +89,17 @@ class ModelBuilder {
   std::vector<Location> node_at_;
   std::vector<int> node_description_;              // structure description of every node
   std::set<std::string> ids_;
+  std::vector<bool> mentioned_;                    // nodes that something refers to
   std::vector<bool> fixed_;                        // full DOFs
   std::vector<NodeConstraint> constraints_;
 };
 
 int ModelBuilder::node(const StructureDescription& structure, const Reference& reference) {
   const auto found = node_index_.find(structure.name + "." + reference.name);
-  if (found != node_index_.end()) return found->second;
+  if (found != node_index_.end()) {
+    mentioned_[static_cast<std::size_t>(found->second)] = true;
+    return found->second;
+  }
   std::vector<std::string> known;
   for (const NodeDescription& candidate : structure.nodes) known.push_back(candidate.id);
   diagnostics_.error(reference.at, fmt::format("node '{}' is not defined in structure '{}'{}", reference.name,
@@ -121,9 +126,9 @@ void ModelBuilder::add_nodes(const StructureDescription& structure) {
     node_at_.push_back(item.at);
     node_description_.push_back(index);
   }
+  mentioned_.resize(node_at_.size(), false);
   fixed_.resize(6 * node_at_.size(), false);
-  model_.nodal_mass.conservativeResize(static_cast<Eigen::Index>(fixed_.size()));
-  model_.nodal_mass.tail(6 * static_cast<Eigen::Index>(structure.nodes.size())).setZero();
+  model_.nodal_mass = VectorX::Zero(static_cast<Eigen::Index>(fixed_.size()));
 }
 
 void ModelBuilder::add_elements(const StructureDescription& structure) {
@@ -237,9 +242,8 @@ void ModelBuilder::find_structures() {
   }
 }
 
-// Rotations that nothing resists and that carry no inertia (nodes of trusses) are held, so that users need not do it.
-// A translation, or a whole node, that nothing resists and that has no mass is an error.
-void ModelBuilder::release_unstressed_rotations() {
+// Absolute diagonal of stiffness and mass, full DOFs.
+VectorX ModelBuilder::resistance() const {
   VectorX resistance = model_.nodal_mass;
   VectorX history(model_.history_size()), trial(model_.history_size());
   for (std::size_t g = 0; g < model_.groups.size(); ++g) {
@@ -257,6 +261,15 @@ void ModelBuilder::release_unstressed_rotations() {
       }
     }
   }
+  return resistance;
+}
+
+// Rotations that nothing resists and that carry no inertia (nodes of trusses) are held, so that users need not do it.
+// A translation, or a whole node, that nothing resists and that has no mass is an error. After other errors elements
+// are missing or have no valid law: then only nodes are reported that nothing refers to.
+void ModelBuilder::release_unstressed_rotations() {
+  const bool complete = diagnostics_.empty();
+  const VectorX resistance = complete ? this->resistance() : VectorX::Zero(model_.nodal_mass.size());
   std::vector<bool> tied(fixed_.size(), false);
   for (const NodeConstraint& c : constraints_) {
     for (std::size_t k = 0; k < 6; ++k) tied[6 * static_cast<std::size_t>(c.slave) + k] = tied[6 * static_cast<std::size_t>(c.slave) + k] || c.constrained[k];
@@ -265,6 +278,7 @@ void ModelBuilder::release_unstressed_rotations() {
     }
   }
   for (int i = 0; i < model_.nodes.size(); ++i) {
+    if (!complete && mentioned_[static_cast<std::size_t>(i)]) continue;
     for (int k = 0; k < 6; ++k) {
       const auto dof = static_cast<std::size_t>(6 * i + k);
       if (fixed_[dof] || tied[dof] || resistance[static_cast<Eigen::Index>(dof)] > 0) continue;
@@ -293,6 +307,14 @@ void ModelBuilder::number_dofs() {
     }
     model_.structures[s].last_dof = dof;
   }
+  model_.initial_displacement = model_.initial_velocity = VectorX::Zero(model_.dofs.size());
+}
+
+void ModelBuilder::require_freedom() {
+  if (!diagnostics_.empty() || model_.dofs.size() > 0) return;
+  diagnostics_.error(description_.structures.empty() ? Location{} : description_.structures.front().at,
+                     description_.structures.empty() ? "there is no structure"
+                                                     : "nothing can move: supports hold every degree of freedom");
 }
 
 void ModelBuilder::assemble_constants() {
@@ -323,7 +345,6 @@ void ModelBuilder::assemble_constants() {
   }
   model_.gravity_load = Tt * gravity;
   model_.gravity_statically_first = description_.gravity.statically_first;
-  model_.initial_displacement = model_.initial_velocity = VectorX::Zero(model_.dofs.size());
 }
 
 void ModelBuilder::set_initial_values(const StructureDescription& structure) {

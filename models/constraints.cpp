@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 
 namespace nsframe {
 
@@ -93,10 +94,12 @@ DofMap build_dof_map(const std::vector<bool>& fixed, const std::vector<NodeConst
   }
   const Resolver resolver(fixed, of_dof);
   std::vector<Eigen::Triplet<double>> entries;
+  std::set<int> circular;  // slaves already reported
   for (int dof = 0; dof < full; ++dof) {
     std::map<int, double> row;
     if (!resolver.add(dof, 1.0, row)) {
       const NodeConstraint& c = *of_dof[static_cast<std::size_t>(dof)];
+      if (!circular.insert(c.slave).second) continue;
       diagnostics.error(c.at, fmt::format("constraints of node '{}' follow each other in a circle",
                                           node_names[static_cast<std::size_t>(c.slave)]));
       continue;

@@ -9,6 +9,7 @@ struct State {
   double time = 0;            // [s]
   VectorX displacement;       // free DOFs, relative to the base [m, rad]
   VectorX velocity;           // [m/s, rad/s]
+  VectorX acceleration;       // of the last step without impacts, only a first guess for the next [m/s2, rad/s2]
   VectorX internal_force;     // P(q) without damping, free DOFs [N, N m]
   VectorX history;            // of all nonlinear elements; layout: Model::history_begin, one block a group
   VectorX impulse;            // of the contact pairs over the last step [N s]

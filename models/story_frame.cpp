@@ -55,7 +55,7 @@ class Expansion {
     x_ = grid_lines(frame.plan[0], frame.bays[0]);
     y_ = grid_lines(frame.plan[1], frame.bays[1]);
     lay_out_plan();
-    stride_ = points_.size() <= 9 ? 10 : points_.size() <= 99 ? 100 : 1000;
+    while (stride_ <= static_cast<int>(points_.size())) stride_ *= 10;
   }
 
   StructureDescription run() {
@@ -255,6 +255,15 @@ void check_list(std::vector<std::string>& faults, std::string_view what, std::si
         fmt::format("{} has {} values, must have one, or one for each of the {} stories", what, size, stories));
 }
 
+constexpr double max_nodes = 1e6;  // a slip of the pen must not fill the memory
+
+double node_count(const StoryFrame& frame) {
+  double count = frame.stories + 1;
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    count *= 1 + std::max(frame.bays[axis], static_cast<int>(frame.plan[axis].size()));
+  return count;
+}
+
 }  // namespace
 
 ElementKind element_kind(BeamKind kind) {
@@ -279,6 +288,8 @@ std::vector<std::string> faults(const StoryFrame& frame) {
       out.push_back(
           fmt::format("plan has {} spans along {}, bays says {}", frame.plan[axis].size(), name, frame.bays[axis]));
   }
+  if (out.empty() && node_count(frame) > max_nodes)
+    out.push_back(fmt::format("stories and bays make {} nodes, at most {} are allowed", node_count(frame), max_nodes));
   if (frame.height.empty()) out.push_back("height is missing");
   check_list(out, "height", frame.height.size(), frame.stories);
   check_list(out, "columns.section", frame.columns.section.size(), frame.stories);

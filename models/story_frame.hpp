@@ -2,7 +2,7 @@
 // explicit nodes and elements, nothing in the rest of the program knows of it.
 //
 // Plan: the column lines stand on a grid of `spans` in x and y; the outer corners are counted around the plan.
-// Node ids: floor * 10 + i (100 or 1000 in place of 10 when a floor has more than nine nodes), floor 0 the base;
+// Node ids: floor * 10 + i (100, 1000 ... in place of 10 when a floor has more nodes than fit), floor 0 the base;
 // i = 1..4 the outer corners (-x,-y), (+x,-y), (+x,+y), (-x,+y), 5 the slab's centre, 6... the other column lines by
 // rising y, then x. Where a column line passes through the centre, its node is the centre.
 // Element ids run story by story: columns, beams along x, beams along y, slab links, braces.

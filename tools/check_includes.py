@@ -82,7 +82,7 @@ def self_test():
         "src/assembly/sees_contact.cpp": '#include "contact/problem.hpp"\n',
         "src/contact/sees_model.cpp": '#include "models/model.hpp"\n',
         "src/modal/sees_model.cpp": '#include "models/model.hpp"\n',
-        "src/integrators/sees_modal.cpp": '#include "modal/modes.hpp"\n',
+        "src/modal/sees_assembly.cpp": '#include "assembly/system.hpp"\n',
         "src/scene/sees_output.cpp": '#include "output/vtk.hpp"\n',
         "src/output/sees_scene.cpp": '#  include  "scene/reader.hpp"\n',
         "src/output/not_from_root.cpp": '#include "vtk.hpp"\n',

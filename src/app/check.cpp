@@ -11,10 +11,10 @@ namespace {
 void print_structure(const LoadedScene& loaded, Simulation& simulation, std::size_t index) {
   const Structure& structure = loaded.model.structures[index];
   const StructureModes& modes = simulation.modes()[index];
-  double mass = 0;
-  for (const int node : structure.nodes) mass += loaded.model.nodal_mass.segment<3>(6 * node).maxCoeff();
+  Vector3 mass = Vector3::Zero();
+  for (const int node : structure.nodes) mass += loaded.model.nodal_mass.segment<3>(6 * node);
   fmt::print("structure '{}': {} nodes, {} free DOFs, mass {:.6g} kg\n", structure.name, structure.nodes.size(),
-             structure.last_dof - structure.first_dof, mass);
+             structure.last_dof - structure.first_dof, mass.maxCoeff());
   for (int i = 0; i < std::min(6, modes.modes.size()); ++i) {
     const auto at = static_cast<std::size_t>(i);
     fmt::print("  mode {:<3} {:10.4f} Hz   damping {:6.3f} %   mass x {:5.1f} %  y {:5.1f} %  z {:5.1f} %\n", modes.names[at],

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "base/errors.hpp"
@@ -12,6 +13,13 @@ LoadedScene load(const SceneArguments& arguments) {
   Diagnostics diagnostics;
   LoadedScene loaded;
   loaded.scene = read_scene(arguments.scene, arguments.set, diagnostics);
+  const std::vector<std::string> schemes = scheme_names();
+  const std::string& scheme = loaded.scene.analysis.scheme;
+  if (std::find(schemes.begin(), schemes.end(), scheme) == schemes.end()) {
+    const auto place = loaded.scene.places.find("analysis.scheme");
+    diagnostics.error(place == loaded.scene.places.end() ? Location{} : place->second,
+                      fmt::format("scheme '{}' is not known{}", scheme, did_you_mean(scheme, schemes)));
+  }
   if (arguments.threads > 0) loaded.scene.analysis.threads = arguments.threads;
   loaded.model = build_model(loaded.scene.model, diagnostics);
   diagnostics.throw_if_any();

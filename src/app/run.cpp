@@ -4,7 +4,6 @@
 #include "app/progress.hpp"
 #include "base/timer.hpp"
 #include "output/history_file.hpp"
-#include "output/paraview_script.hpp"
 #include "output/peaks.hpp"
 #include "output/poundings.hpp"
 #include "output/summary.hpp"
@@ -74,12 +73,6 @@ int run(const SceneArguments& arguments) {
   summary.warnings = numerical_warnings(summary);
   for (std::string& warning : contact_warnings(loaded.model, summary)) summary.warnings.push_back(std::move(warning));
   write_summary(summary, folder / "summary.json");
-  if (wants_frames) {
-    double largest = 0;
-    for (const Peak& peak : summary.peaks) largest = std::max(largest, peak.displacement.maxCoeff());
-    write_text(folder / "open_in_paraview.py",
-               paraview_script(loaded.model, summary.title, visible_scale(loaded.model, largest)));
-  }
   if (!arguments.quiet) {
     fmt::print("{}", summary_text(summary));
     print_files(folder, wants_frames);

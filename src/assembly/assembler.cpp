@@ -75,7 +75,7 @@ Assembler::Assembler(const Model& model, int threads) : model_(model), threads_(
 }
 
 Assembler::Placed Assembler::place(const ElementGroup& group, int element, int history_begin) const {
-  Placed placed{&group, element, history_begin, {}, {}, {}};
+  Placed placed{&group, element, history_begin, {}, {}, {}, {}};
   const SparseRows& T = model_.dofs.transformation;
   const ElementNodes& nodes = group.nodes(element);
   std::vector<std::array<int, 2>> entries;  // local DOF, free DOF
@@ -96,11 +96,25 @@ Assembler::Placed Assembler::place(const ElementGroup& group, int element, int h
     const auto column = std::lower_bound(placed.dofs.begin(), placed.dofs.end(), entries[k][1]) - placed.dofs.begin();
     placed.map(entries[k][0], column) = factors[k];
   }
+  const bool selection = entries.size() == placed.dofs.size() &&
+                         std::all_of(factors.begin(), factors.end(), [](double factor) { return factor == 1; });
+  for (Eigen::Index column = 0; selection && column < placed.map.cols(); ++column) {
+    Eigen::Index row = 0;
+    placed.map.col(column).maxCoeff(&row);
+    placed.local.push_back(static_cast<int>(row));
+  }
   return placed;
 }
 
 void Assembler::scatter(const Placed& placed, const Matrix12& tangent, double* values) const {
-  Eigen::Matrix<double, 12, Eigen::Dynamic, Eigen::ColMajor, 12, 24> half;
+  if (!placed.local.empty()) {
+    const int* position = placed.position.data();
+    for (const int j : placed.local) {
+      for (const int i : placed.local) values[*position++] += tangent(i, j);
+    }
+    return;
+  }
+  MatrixX half;
   const Eigen::Index n = placed.map.cols();
   MatrixX reduced(n, n);
   half.noalias() = tangent * placed.map;

@@ -42,6 +42,7 @@ class Assembler {
     std::vector<int> dofs;           // free DOFs it acts on
     MatrixX map;                     // 12 x dofs: u = map q
     std::vector<int> position;       // of every entry (column-major, dofs x dofs) in tangent_.valuePtr()
+    std::vector<int> local;          // without constraints: the local DOF of every free DOF, and `map` is a selection
   };
   Placed place(const ElementGroup& group, int element, int history_begin) const;
   void scatter(const Placed& placed, const Matrix12& tangent, double* values) const;

@@ -9,7 +9,9 @@ namespace nsframe {
 namespace {
 
 constexpr std::array<const char*, 6> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
-constexpr double singular = 1e-12;  // smallest over largest scaled pivot
+// Least eigenvalue of the matrix scaled to unit diagonal: rounding leaves some 1e-15 of a zero, a column of n elements in
+// bending has n^-4 / 2.
+constexpr double singular = 1e-13;
 
 // An approximate null vector of a symmetric matrix with unit diagonal, by inverse iteration on a shifted copy; empty
 // when the matrix is regular.
@@ -22,12 +24,12 @@ VectorX null_vector(const SparseMatrix& matrix) {
   }
   SparseMatrix scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
   SparseMatrix shifted = scaled;
-  for (int i = 0; i < shifted.rows(); ++i) shifted.coeffRef(i, i) += 1e-10;
+  for (int i = 0; i < shifted.rows(); ++i) shifted.coeffRef(i, i) += singular;
   Eigen::SimplicialLDLT<SparseMatrix> factor(shifted);
   if (factor.info() != Eigen::Success) return {};
   VectorX x = VectorX::Random(scale.size());
-  for (int k = 0; k < 4; ++k) x = factor.solve(x).normalized().eval();
-  if ((scaled * x).norm() > singular * 10) return {};
+  for (int k = 0; k < 6; ++k) x = factor.solve(x).normalized().eval();
+  if ((scaled * x).norm() > singular) return {};
   return scale.cwiseProduct(x);
 }
 

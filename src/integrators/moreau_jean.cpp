@@ -106,6 +106,7 @@ void MoreauJean::step(System& system, const State& committed, State& trial, doub
   system.load_impulse(committed.time, committed.time + h, load_);
   system.assembler.start_step(committed.history, trial.history);
   trial.velocity = committed.velocity;
+  if (!system.linear()) trial.velocity += h * committed.acceleration;
   evaluate(system, committed, trial, h);
   const double a = options_.theta * h;
   if (!matrix_.ready(a)) matrix_.factor(system, system.assembler.tangent(), a);
@@ -121,6 +122,11 @@ void MoreauJean::step(System& system, const State& committed, State& trial, doub
     previous = residual;
   }
   trial.time = committed.time + h;
+  if (active_.empty()) {
+    trial.acceleration = (trial.velocity - committed.velocity) / h;
+  } else {
+    trial.acceleration.setZero(trial.velocity.size());
+  }
   report(system, committed, trial, h, result);
 }
 

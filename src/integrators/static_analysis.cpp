@@ -44,7 +44,7 @@ bool reach(System& system, const VectorX& load, const StaticOptions& options, co
 State virgin_state(System& system) {
   State state;
   const int size = system.model.dofs.size();
-  state.displacement = state.velocity = state.internal_force = VectorX::Zero(size);
+  state.displacement = state.velocity = state.acceleration = state.internal_force = VectorX::Zero(size);
   state.history = system.assembler.virgin_history();
   state.impulse = VectorX::Zero(system.contacts().size());
   State trial = state;

@@ -113,10 +113,10 @@ int Builder::beam_station(const ElementNodes& nodes, const ElementShape& shape, 
     local(1, first + 5) = deflection[2 * end + 1];
     local(2, first + 2) = deflection[2 * end];  // uz from uz, ry (uz' = -ry)
     local(2, first + 4) = -deflection[2 * end + 1];
-    local(3, first + 3) = share;                // rx
-    local(4, first + 2) = -slope[2 * end];      // ry = -uz'
+    local(3, first + 3) = share;            // rx
+    local(4, first + 2) = -slope[2 * end];  // ry = -uz'
     local(4, first + 4) = slope[2 * end + 1];
-    local(5, first + 1) = slope[2 * end];       // rz = uy'
+    local(5, first + 1) = slope[2 * end];  // rz = uy'
     local(5, first + 5) = slope[2 * end + 1];
   }
   const int station = add_station();
@@ -157,8 +157,8 @@ void Builder::draw_curve(const std::vector<int>& stations, const Vector3& start,
   const Vector3 axis = shape.length * shape.axes.row(0).transpose();
   int last = -1;
   for (int k = 0; k <= segments_; ++k) {
-    const int point = add_point(stations[static_cast<std::size_t>(k)], start + double(k) / segments_ * axis,
-                                Vector3::Zero());
+    const int point =
+        add_point(stations[static_cast<std::size_t>(k)], start + double(k) / segments_ * axis, Vector3::Zero());
     if (k > 0) add_cell(CellType::line, {last, point}, owner, (k - 0.5) / segments_);
     last = point;
   }
@@ -216,10 +216,12 @@ Vector3 polygon_normal(const std::vector<Vector3>& corners) {
   return size > 0 ? Vector3(normal / size) : Vector3::Zero();
 }
 
-// A plate of the slab's thickness about the plane of its corner nodes; each edge over the thickness turns with its node.
+// A plate of the slab's thickness about the plane of its corner nodes; each edge over the thickness turns with its
+// node.
 void Builder::draw_slab(const Slab& slab) {
   std::vector<Vector3> corners;
-  for (const int node : slab.corners) corners.push_back(position_of(model_, node) - position_of(model_, slab.corners[0]));
+  for (const int node : slab.corners)
+    corners.push_back(position_of(model_, node) - position_of(model_, slab.corners[0]));
   const Vector3 normal = polygon_normal(corners);
   if (corners.size() < 3 || normal.isZero()) return;
   const CellOwner owner{kind_slab, -1, -1, slab.structure};
@@ -249,10 +251,10 @@ void Builder::draw_contact(int pair) {
   if (contact.node_a < 0) return;
   const Vector3& from = position_of(model_, contact.node_a);
   const int first = add_point(node_station(contact.node_a), from, Vector3::Zero());
-  const int last = contact.node_b >= 0
-                       ? add_point(node_station(contact.node_b), position_of(model_, contact.node_b), Vector3::Zero())
-                       : add_point(add_station(), from + model_.contacts.initial_gap[pair] * contact.normal,
-                                   Vector3::Zero());
+  const int last =
+      contact.node_b >= 0
+          ? add_point(node_station(contact.node_b), position_of(model_, contact.node_b), Vector3::Zero())
+          : add_point(add_station(), from + model_.contacts.initial_gap[pair] * contact.normal, Vector3::Zero());
   add_cell(CellType::line, {first, last}, {kind_contact, -1, pair, structure_of(model_, contact.node_a)}, 0);
 }
 

@@ -24,19 +24,19 @@ struct DrawnElement {
 };
 
 struct FrameGeometry {
-  std::vector<Vector3> position;       // of each point [m]
-  std::vector<int> station;            // of each point
-  std::vector<Vector3> arm;            // of each point from its station, global axes [m]
-  SparseRows station_motion;           // (6 stations x full DOFs): ux uy uz rx ry rz in global axes
+  std::vector<Vector3> position;  // of each point [m]
+  std::vector<int> station;       // of each point
+  std::vector<Vector3> arm;       // of each point from its station, global axes [m]
+  SparseRows station_motion;      // (6 stations x full DOFs): ux uy uz rx ry rz in global axes
 
-  std::vector<CellType> type;          // of each cell
-  std::vector<int> connectivity;       // points of all cells, one cell after the other
-  std::vector<int> offset{0};          // of each cell in `connectivity`, and its size at the end
-  std::vector<int> kind;               // of each cell: index into kind_names
-  std::vector<int> element;            // index into element_ids, or -1
-  std::vector<int> pair;               // contact pair, or -1
+  std::vector<CellType> type;     // of each cell
+  std::vector<int> connectivity;  // points of all cells, one cell after the other
+  std::vector<int> offset{0};     // of each cell in `connectivity`, and its size at the end
+  std::vector<int> kind;          // of each cell: index into kind_names
+  std::vector<int> element;       // index into element_ids, or -1
+  std::vector<int> pair;          // contact pair, or -1
   std::vector<int> structure;
-  std::vector<double> along;           // place of the cell's middle along its element, in [0, 1]
+  std::vector<double> along;  // place of the cell's middle along its element, in [0, 1]
 
   std::vector<DrawnElement> drawn;
   std::vector<std::string> kind_names;
@@ -52,10 +52,10 @@ FrameGeometry frame_geometry(const Model& model, int segments = 12);
 
 // Field values of one frame, in the order of points and cells.
 struct FrameFields {
-  std::vector<double> displacement, rotation, velocity;   // 3 a point [m], [rad], [m/s]
-  std::vector<double> force, moment;                      // 3 a cell: N VY VZ [N], T MY MZ [N m]
-  std::vector<double> peak_strain_ratio, gap, impulse;    // a cell [-], [m], [N s]
-  std::vector<int> yielded;                               // a cell: 1 where a fiber carries plastic strain
+  std::vector<double> displacement, rotation, velocity;  // 3 a point [m], [rad], [m/s]
+  std::vector<double> force, moment;                     // 3 a cell: N VY VZ [N], T MY MZ [N m]
+  std::vector<double> peak_strain_ratio, gap, impulse;   // a cell [-], [m], [N s]
+  std::vector<int> yielded;                              // a cell: 1 where a fiber carries plastic strain
 };
 
 // `interval_impulse`: of each pair since the frame before [N s].

@@ -1,8 +1,14 @@
 #include "output/hdf5_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <system_error>
 #include <utility>
 
@@ -30,9 +36,13 @@ std::string hdf5_error() {
 template <class Value>
 hid_t native_type();
 template <>
-hid_t native_type<double>() { return H5T_NATIVE_DOUBLE; }
+hid_t native_type<double>() {
+  return H5T_NATIVE_DOUBLE;
+}
 template <>
-hid_t native_type<int>() { return H5T_NATIVE_INT; }
+hid_t native_type<int>() {
+  return H5T_NATIVE_INT;
+}
 
 // Metadata goes to the file only with a flush: between two of them, the file on disk is the one of the last.
 // Formats up to 1.8 have no mark "open for writing", with which readers refuse a file whose writer died.
@@ -95,7 +105,40 @@ Hdf5File::~Hdf5File() {
 
 hid_t Hdf5File::check(hid_t result, const std::string& doing) const {
   if (result >= 0) return result;
-  throw IoError(fmt::format("cannot write '{}' ({}): {}", path_.string(), doing, hdf5_error()));
+  const std::string reason = hdf5_error();
+  cut_off();
+  throw IoError(fmt::format("cannot write '{}' ({}): {}", path_.string(), doing, reason));
+}
+
+int Hdf5File::descriptor() const {
+  void* handle = nullptr;
+  if (file_ < 0 || H5Fget_vfd_handle(file_, H5P_DEFAULT, &handle) < 0 || !handle) return -1;
+  return *static_cast<int*>(handle);
+}
+
+// After a failure HDF5 would still try to write its metadata on closing, leave them torn, and crash at exit. So the
+// file on the disk stays as the last flush left it, and what HDF5 still writes goes to memory that nobody reads.
+void Hdf5File::cut_off() const {
+  const int file = descriptor();
+  if (file < 0) return;
+  const int nowhere = memfd_create("nsframe", 0);
+  if (nowhere < 0) return;
+  dup2(nowhere, file);
+  ::close(nowhere);
+}
+
+// A flush that finds the disk full halfway would tear the metadata: the space is claimed before it begins.
+void Hdf5File::reserve_space() const {
+  const int file = descriptor();
+  hsize_t size = 0;
+  struct stat now;
+  if (file < 0 || H5Fget_filesize(file_, &size) < 0 || fstat(file, &now) != 0) return;
+  const auto needed = static_cast<off_t>(size) - now.st_size;
+  if (needed <= 0) return;
+  const int error = posix_fallocate(file, now.st_size, needed);
+  if (error == 0 || error == EOPNOTSUPP || error == EINVAL) return;
+  cut_off();
+  throw IoError(fmt::format("cannot write '{}': {}", path_.string(), std::strerror(error)));
 }
 
 void Hdf5File::publish() {
@@ -106,6 +149,7 @@ void Hdf5File::publish() {
 
 void Hdf5File::flush() {
   const QuietHdf5 quiet;
+  reserve_space();
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "writing to the disk");
 }
 
@@ -205,10 +249,10 @@ Hdf5Series<Value>::Hdf5Series(Hdf5File& file, const std::string& name, std::vect
   file.check(H5Pset_chunk(properties, int(chunk.size()), chunk.data()), name);
   const Hdf5Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(links, 1);
-  data_set_ = Hdf5Id(file.check(H5Dcreate2(file.id(), name.c_str(), native_type<Value>(), space, links, properties,
-                                           H5P_DEFAULT),
-                                name),
-                     H5Dclose);
+  data_set_ = Hdf5Id(
+      file.check(H5Dcreate2(file.id(), name.c_str(), native_type<Value>(), space, links, properties, H5P_DEFAULT),
+                 name),
+      H5Dclose);
   buffer_.reserve(row_size_ * block);
 }
 

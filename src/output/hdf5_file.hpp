@@ -6,31 +6,10 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace nsframe {
-
-// Owns an HDF5 identifier.
-class Hdf5Id {
- public:
-  using Close = herr_t (*)(hid_t);
-  Hdf5Id() = default;
-  Hdf5Id(hid_t id, Close close) : id_(id), close_(close) {}
-  Hdf5Id(Hdf5Id&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
-  Hdf5Id& operator=(Hdf5Id&& other) noexcept {
-    std::swap(id_, other.id_);
-    std::swap(close_, other.close_);
-    return *this;
-  }
-  ~Hdf5Id() {
-    if (id_ >= 0) close_(id_);
-  }
-  operator hid_t() const { return id_; }
-
- private:
-  hid_t id_ = -1;
-  Close close_ = nullptr;
-};
 
 // HDF5 prints its errors unless told not to; within this scope it keeps them for hdf5_error().
 class QuietHdf5 {
@@ -43,6 +22,31 @@ class QuietHdf5 {
  private:
   H5E_auto2_t function_ = nullptr;
   void* data_ = nullptr;
+};
+
+// Owns an HDF5 identifier. Closing may write what is still cached; a failure of that is the one of the last flush
+// again, and stays silent.
+class Hdf5Id {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Hdf5Id() = default;
+  Hdf5Id(hid_t id, Close close) : id_(id), close_(close) {}
+  Hdf5Id(Hdf5Id&& other) noexcept : id_(other.id_), close_(other.close_) { other.id_ = -1; }
+  Hdf5Id& operator=(Hdf5Id&& other) noexcept {
+    std::swap(id_, other.id_);
+    std::swap(close_, other.close_);
+    return *this;
+  }
+  ~Hdf5Id() {
+    if (id_ < 0) return;
+    const QuietHdf5 quiet;
+    close_(id_);
+  }
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_ = -1;
+  Close close_ = nullptr;
 };
 
 class Hdf5File {
@@ -66,10 +70,14 @@ class Hdf5File {
   void set_attribute(const std::string& object, const std::string& name, const std::vector<std::string>& texts);
   void set_attribute(const std::string& object, const std::string& name, double value);
 
-  // Throws IoError when `result` is negative.
+  // Throws IoError when `result` is negative, and writes nothing to the file from then on.
   hid_t check(hid_t result, const std::string& doing) const;
 
  private:
+  void reserve_space() const;
+  void cut_off() const;
+  int descriptor() const;
+
   std::filesystem::path path_, partial_;
   bool published_ = false;
   Hdf5Id file_, text_type_;

@@ -66,14 +66,14 @@ class HistoryFile::Writer {
   std::string scene_;
   SampleClock clock_;
   const Model* model_ = nullptr;
-  std::optional<Hdf5File> file_;       // before the series, which refer to it
+  std::optional<Hdf5File> file_;  // before the series, which refer to it
   std::optional<Hdf5Series<double>> time_;
   std::vector<std::unique_ptr<HistoryPart>> parts_;
   std::unique_ptr<ImpactRows> impact_rows_;
   std::vector<Impact> impacts_;
-  VectorX impulse_;                    // since the last row [N s]
+  VectorX impulse_;  // since the last row [N s]
   Energy energy_;
-  std::size_t rows_ = 0, block_ = 1;   // rows buffered, and buffered at most
+  std::size_t rows_ = 0, block_ = 1;  // rows buffered, and buffered at most
   Clock::time_point last_write_;
   double seconds_ = 0;
 };

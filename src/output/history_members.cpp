@@ -79,7 +79,7 @@ class ElementPart : public HistoryPart {
 struct SectionKind {
   std::string name;
   std::vector<Member> members;
-  std::vector<std::string> elements;   // of each section
+  std::vector<std::string> elements;  // of each section
   std::vector<double> positions;
 };
 
@@ -116,7 +116,8 @@ class SectionPart : public HistoryPart {
       file.make_group(folder);
       file.write_texts(folder + "/element", kind.elements);
       file.write_numbers(folder + "/position", kind.positions);
-      file.set_attribute(folder + "/position", "description", "along the element, 0 at its first node, 1 at its second");
+      file.set_attribute(folder + "/position", "description",
+                         "along the element, 0 at its first node, 1 at its second");
       add_series(file, folder + "/deformation", {points, 3}, block, "1, 1/m, 1/m", {"e0", "kz", "ky"});
       add_series(file, folder + "/force", {points, 3}, block, "N, N m, N m", {"N", "MZ", "MY"});
       add_series(file, folder + "/peak_strain_ratio", {points}, block, "1");

@@ -12,11 +12,11 @@ namespace nsframe {
 
 // What a row is made of.
 struct Sample {
-  const State& before;                 // at the start of the step; the same as `after` for the first row
+  const State& before;  // at the start of the step; the same as `after` for the first row
   const State& after;
-  double dt = 0;                       // [s]; 0 for the first row
+  double dt = 0;  // [s]; 0 for the first row
   const Energy& energy;
-  const VectorX& impulse;              // of each pair since the row before [N s]
+  const VectorX& impulse;  // of each pair since the row before [N s]
 };
 
 class HistoryPart {
@@ -30,9 +30,8 @@ class HistoryPart {
   }
 
  protected:
-  Hdf5Series<double>& add_series(Hdf5File& file, const std::string& name, std::vector<hsize_t> shape,
-                                 std::size_t block, const std::string& units,
-                                 const std::vector<std::string>& components = {});
+  Hdf5Series<double>& add_series(Hdf5File& file, const std::string& name, std::vector<hsize_t> shape, std::size_t block,
+                                 const std::string& units, const std::vector<std::string>& components = {});
   std::vector<Hdf5Series<double>> series_;
 };
 

@@ -25,7 +25,8 @@ const Vector12& EndForces::evaluate(const Model& model, std::size_t group, int e
   elements.respond(element, element_displacement(elements, element, full_displacement), committed, trial_.data(),
                    force_, nullptr);
   const Matrix3 axes = elements.shape(element).axes;
-  for (Eigen::Index block = 0; block < 12; block += 3) force_.segment<3>(block) = (axes * force_.segment<3>(block)).eval();
+  for (Eigen::Index block = 0; block < 12; block += 3)
+    force_.segment<3>(block) = (axes * force_.segment<3>(block)).eval();
   return force_;
 }
 

@@ -43,6 +43,7 @@ deformed = WarpByVector(registrationName="deformed", Input=frames)
 deformed.Vectors = ["POINTS", "displacement"]
 deformed.ScaleFactor = SCALE
 
+
 def threshold(name, source, array, lowest):
     """Cells or points of `source` whose `array` is at least `lowest`, in ParaView before and after 5.10."""
     chosen = Threshold(registrationName=name, Input=source)
@@ -59,8 +60,12 @@ members = threshold("structures", deformed, ["CELLS", "kind"], 1)
 shown = Show(members, view)
 shown.Representation = "Surface"
 ColorBy(shown, ("POINTS", "displacement", "Magnitude"))
-shown.RescaleTransferFunctionToDataRange(True, False)
 colors = GetColorTransferFunction("displacement")
+LARGEST = {largest:g}  # displacement of the whole run (m)
+if LARGEST > 0:
+    colors.RescaleTransferFunction(0, LARGEST)
+else:
+    shown.RescaleTransferFunctionToDataRange(True, False)
 colors.ApplyPreset("Viridis (matplotlib)", True)
 shown.SetScalarBarVisibility(view, True)
 bar = GetScalarBar(colors, view)
@@ -80,15 +85,16 @@ spheres = Show(glyphs, view)
 ColorBy(spheres, None)
 spheres.AmbientColor = spheres.DiffuseColor = [0.84, 0.37, 0.0]
 
-time = AnnotateTimeFilter(registrationName="time", Input=frames)
-time.Format = "{title}   t = {{time:.3f}} s   displacements x {scale:g}"
-Show(time, view)
+clock = AnnotateTimeFilter(registrationName="time", Input=frames)
+clock.Format = "{title}   t = {{time:.3f}} s   displacements x {scale:g}"
+Show(clock, view)
 
 view.AxesGrid.Visibility = 1
 view.AxesGrid.XTitle, view.AxesGrid.YTitle, view.AxesGrid.ZTitle = "x (m)", "y (m)", "z (m)"
 view.CameraFocalPoint = [{cx:g}, {cy:g}, {cz:g}]
 view.CameraPosition = [{px:g}, {py:g}, {pz:g}]
 view.CameraViewUp = [0, 0, 1]
+GetAnimationScene().AnimationTime = {time:g}  # the largest displacement
 view.ResetCamera()
 Render()
 )py";
@@ -106,13 +112,14 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-std::string paraview_script(const Model& model, const std::string& title, double scale) {
+std::string paraview_script(const Model& model, const ParaviewView& view) {
   const Box box = bounds(model);
   const Vector3 center = 0.5 * (box.low + box.high);
   const double distance = 2 * std::max(box.diagonal(), 1e-3);
   const Vector3 camera = center + distance * Vector3(0.5, -0.8, 0.35).normalized();
   using fmt::arg;
-  return fmt::format(fmt::runtime(script), arg("scale", scale), arg("title", quoted(title)),
+  return fmt::format(fmt::runtime(script), arg("scale", view.scale), arg("title", quoted(view.title)),
+                     arg("largest", view.largest_displacement), arg("time", view.time),
                      arg("mark", 0.04 * std::max(box.diagonal(), 1e-3)), arg("cx", center.x()), arg("cy", center.y()),
                      arg("cz", center.z()), arg("px", camera.x()), arg("py", camera.y()), arg("pz", camera.z()));
 }

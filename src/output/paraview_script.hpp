@@ -7,8 +7,15 @@
 
 namespace nsframe {
 
-// `scale` multiplies the displacements drawn; it must make them visible against the size of the model.
-std::string paraview_script(const Model& model, const std::string& title, double scale);
+// What the script shows first.
+struct ParaviewView {
+  std::string title;
+  double scale = 1;                 // of the displacements drawn; must make them visible against the size of the model
+  double largest_displacement = 0;  // [m], the end of the colour scale; 0: not known yet
+  double time = 0;                  // [s] of the frame shown first
+};
+
+std::string paraview_script(const Model& model, const ParaviewView& view);
 
 // Scale that draws `largest_displacement` [m] as about 4 % of the model's diagonal, rounded to 1, 2 or 5 times a power
 // of ten; at least 1.

@@ -9,9 +9,8 @@ std::vector<Pounding> merge_impacts(const std::vector<Impact>& impacts, double w
   std::unordered_map<int, std::size_t> latest;  // pounding of each pair
   for (const auto& impact : impacts) {
     const auto found = latest.find(impact.pair);
-    const bool continues =
-        found != latest.end() &&
-        impact.time - (poundings[found->second].time + poundings[found->second].duration) < window;
+    const bool continues = found != latest.end() &&
+                           impact.time - (poundings[found->second].time + poundings[found->second].duration) < window;
     if (!continues) {
       latest[impact.pair] = poundings.size();
       Pounding first;

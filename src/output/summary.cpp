@@ -105,11 +105,11 @@ double excess(const ModeNumerics& mode) {
   return (mode.damping_effective - mode.damping_asked) / std::max(mode.damping_asked, 1e-3);
 }
 
-// Modes whose damping the scene sets; all of them when it sets none.
+// Modes whose damping the scene sets (others have a ratio of rounding size); all of them when it sets none.
 std::vector<ModeNumerics> modes_that_matter(const Summary& summary) {
   std::vector<ModeNumerics> modes;
   std::copy_if(summary.modes.begin(), summary.modes.end(), std::back_inserter(modes),
-               [](const auto& mode) { return mode.damping_asked > 0; });
+               [](const auto& mode) { return mode.damping_asked > 1e-9; });
   return modes.empty() ? summary.modes : modes;
 }
 
@@ -121,17 +121,14 @@ void warn_of_damping(const Summary& summary, const std::vector<ModeNumerics>& mo
     return (damped_too_much(a) ? excess(a) : -1) < (damped_too_much(b) ? excess(b) : -1);
   });
   const std::string more =
-      others == 0 ? ""
-                  : fmt::format(", and too much to {} other mode{}", others, others == 1 ? "" : "s");
+      others == 0 ? "" : fmt::format(", and too much to {} other mode{}", others, others == 1 ? "" : "s");
   warnings.push_back(fmt::format(
       "theta = {:g} at dt = {:g} ms adds {} damping to mode {}, which asks for {}{}: {}", summary.theta,
       1e3 * summary.dt, percent(worst->damping_effective - worst->damping_asked), mode_of(*worst),
-      percent(worst->damping_asked), more,
-      summary.pairs.empty() ? "peaks come out too low" : "impacts may be missed"));
+      percent(worst->damping_asked), more, summary.pairs.empty() ? "peaks come out too low" : "impacts may be missed"));
 }
 
-void warn_of_shift(const Summary& summary, const std::vector<ModeNumerics>& modes,
-                   std::vector<std::string>& warnings) {
+void warn_of_shift(const Summary& summary, const std::vector<ModeNumerics>& modes, std::vector<std::string>& warnings) {
   const auto shift = [](const ModeNumerics& mode) {
     return mode.frequency > 0 && mode.frequency_effective > 0 ? mode.frequency_effective / mode.frequency - 1 : 0.0;
   };
@@ -151,8 +148,9 @@ std::vector<std::string> numerical_warnings(const Summary& summary) {
   warn_of_damping(summary, modes, warnings);
   warn_of_shift(summary, modes, warnings);
   if (summary.worst_balance_error > 0.01) {
-    warnings.push_back(fmt::format("the energy balance is off by {} of the largest energy: the results are not accurate",
-                                   percent(summary.worst_balance_error)));
+    warnings.push_back(
+        fmt::format("the energy balance is off by {} of the largest energy: the results are not accurate",
+                    percent(summary.worst_balance_error)));
   }
   if (summary.max_complementarity_error > 1e-6) {
     warnings.push_back(fmt::format("the contact problem is solved to {:.1e} only: impulses carry that relative error",
@@ -162,40 +160,39 @@ std::vector<std::string> numerical_warnings(const Summary& summary) {
 }
 
 std::string summary_json(const Summary& summary) {
-  const Json json = {{"program", "nsframe"},
-                     {"version", NSFRAME_VERSION},
-                     {"title", summary.title},
-                     {"completed", summary.completed},
-                     {"stop_reason", summary.stop_reason},
-                     {"end_time", summary.end_time},
-                     {"scheme", summary.scheme},
-                     {"dt", summary.dt},
-                     {"duration", summary.duration},
-                     {"theta", summary.theta},
-                     {"gamma", summary.gamma},
-                     {"steps", summary.steps},
-                     {"nodes", summary.nodes},
-                     {"elements", summary.elements},
-                     {"fibers", summary.fibers},
-                     {"dofs", summary.dofs},
-                     {"structures", summary.structures},
-                     {"frequencies", summary.frequencies},
-                     {"numerical_damping", modes_json(summary)},
-                     {"pairs", summary.pairs},
-                     {"impacts", impacts_json(summary)},
-                     {"poundings", poundings_json(summary)},
-                     {"peaks", peaks_json(summary)},
-                     {"energy", energy_json(summary)},
-                     {"max_penetration", summary.max_penetration},
-                     {"max_complementarity_error", summary.max_complementarity_error},
-                     {"newton_iterations", summary.newton_iterations},
-                     {"halved_steps", summary.halved_steps},
-                     {"factorizations", summary.factorizations},
-                     {"timing",
-                      {{"setup", summary.timing.setup},
-                       {"step_loop", summary.timing.step_loop},
-                       {"output", summary.timing.output}}},
-                     {"warnings", summary.warnings}};
+  const Json json = {
+      {"program", "nsframe"},
+      {"version", NSFRAME_VERSION},
+      {"title", summary.title},
+      {"completed", summary.completed},
+      {"stop_reason", summary.stop_reason},
+      {"end_time", summary.end_time},
+      {"scheme", summary.scheme},
+      {"dt", summary.dt},
+      {"duration", summary.duration},
+      {"theta", summary.theta},
+      {"gamma", summary.gamma},
+      {"steps", summary.steps},
+      {"nodes", summary.nodes},
+      {"elements", summary.elements},
+      {"fibers", summary.fibers},
+      {"dofs", summary.dofs},
+      {"structures", summary.structures},
+      {"frequencies", summary.frequencies},
+      {"numerical_damping", modes_json(summary)},
+      {"pairs", summary.pairs},
+      {"impacts", impacts_json(summary)},
+      {"poundings", poundings_json(summary)},
+      {"peaks", peaks_json(summary)},
+      {"energy", energy_json(summary)},
+      {"max_penetration", summary.max_penetration},
+      {"max_complementarity_error", summary.max_complementarity_error},
+      {"newton_iterations", summary.newton_iterations},
+      {"halved_steps", summary.halved_steps},
+      {"factorizations", summary.factorizations},
+      {"timing",
+       {{"setup", summary.timing.setup}, {"step_loop", summary.timing.step_loop}, {"output", summary.timing.output}}},
+      {"warnings", summary.warnings}};
   // Names may come from a file in another encoding: bytes that are not UTF-8 are replaced, not fatal.
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

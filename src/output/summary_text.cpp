@@ -100,8 +100,8 @@ void put_peaks(Buffer& out, const Summary& summary) {
   for (std::size_t i = 0; i < rows; ++i) {
     const Peak& p = peaks[i];
     const Vector3 d = 1e3 * p.displacement, a = p.acceleration;
-    line(out, "  {:<24} {:>8.2f}{:>8.2f}{:>8.2f}  {:>10.5f}  {:>8.2f}{:>8.2f}{:>8.2f}  {:>8.3f}",
-         shortened(p.node, 24), d.x(), d.y(), d.z(), p.twist, a.x(), a.y(), a.z(), p.velocity.maxCoeff());
+    line(out, "  {:<24} {:>8.2f}{:>8.2f}{:>8.2f}  {:>10.5f}  {:>8.2f}{:>8.2f}{:>8.2f}  {:>8.3f}", shortened(p.node, 24),
+         d.x(), d.y(), d.z(), p.twist, a.x(), a.y(), a.z(), p.velocity.maxCoeff());
   }
   if (peaks.size() > rows) line(out, "  ... and {} more nodes with less displacement", peaks.size() - rows);
 }
@@ -123,7 +123,7 @@ void put_modes(Buffer& out, const Summary& summary) {
        "asked, %", "added, %", "in all, %");
   for (std::size_t i = 0; i < std::min(most_rows, summary.modes.size()); ++i) {
     const ModeNumerics& m = summary.modes[i];
-    line(out, "  {:<26} {:<6} {:>13.4g} {:>14.4g} {:>9.3g} {:>9.3g} {:>10.3g}", shortened(m.structure, 26),
+    line(out, "  {:<26} {:<6} {:>13.4g} {:>14.4g} {:>9.3f} {:>9.3f} {:>10.3f}", shortened(m.structure, 26),
          shortened(m.mode, 6), m.frequency, m.frequency_effective, 100 * m.damping_asked,
          100 * (m.damping_effective - m.damping_asked), 100 * m.damping_effective);
   }

@@ -21,6 +21,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 #include <string>
 
 #include "base/errors.hpp"
@@ -59,7 +60,8 @@ vtkSmartPointer<vtkPoints> make_points(const FrameGeometry& geometry) {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(geometry.points());
-  for (int i = 0; i < geometry.points(); ++i) points->SetPoint(i, geometry.position[static_cast<std::size_t>(i)].data());
+  for (int i = 0; i < geometry.points(); ++i)
+    points->SetPoint(i, geometry.position[static_cast<std::size_t>(i)].data());
   return points;
 }
 
@@ -151,10 +153,11 @@ class VtkFrames::Writer {
   FrameFields fields_;
   std::vector<double> exaggerated_, time_{0.0};
   std::vector<std::string> structure_names_, pair_names_;
-  VectorX impulse_;                    // of each pair since the last frame [N s]
+  VectorX impulse_;  // of each pair since the last frame [N s]
   vtkNew<vtkUnstructuredGrid> grid_;
-  std::string collection_;             // the <DataSet> lines of frames.pvd
-  double largest_displacement_ = 0;    // [m]
+  std::string collection_;           // the <DataSet> lines of frames.pvd
+  double largest_displacement_ = 0;  // of all frames [m], and when [s]
+  double largest_time_ = 0;
   double seconds_ = 0;
   int frames_ = 0;
 };
@@ -195,7 +198,14 @@ void VtkFrames::Writer::write(const State& state) {
                    [this](double value) { return amplification_ * value; });
   }
   time_[0] = state.time;
-  largest_displacement_ = std::max(largest_displacement_, largest_norm(fields_.displacement));
+  if (const double largest = largest_norm(fields_.displacement); largest > largest_displacement_) {
+    largest_displacement_ = largest;
+    largest_time_ = state.time;
+  }
+  // VTK keeps the ranges of arrays until it is told that their values have changed.
+  for (vtkFieldData* owner : std::initializer_list<vtkFieldData*>{grid_->GetPointData(), grid_->GetCellData()}) {
+    for (int i = 0; i < owner->GetNumberOfArrays(); ++i) owner->GetArray(i)->Modified();
+  }
   grid_->Modified();
 
   const std::string name = fmt::format("frames/frame_{:06d}.vtu", frames_);
@@ -218,7 +228,8 @@ void VtkFrames::Writer::write(const State& state) {
     throw IoError(fmt::format("cannot write '{}': {}", path.string(), reason));
   }
   ++frames_;
-  collection_ += fmt::format("    <DataSet timestep=\"{:.9g}\" group=\"\" part=\"0\" file=\"{}\"/>\n", state.time, name);
+  collection_ +=
+      fmt::format("    <DataSet timestep=\"{:.9g}\" group=\"\" part=\"0\" file=\"{}\"/>\n", state.time, name);
   write_text_file(folder_ / "frames.pvd",
                   "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
                   "byte_order=\"LittleEndian\">\n  <Collection>\n" +
@@ -227,7 +238,8 @@ void VtkFrames::Writer::write(const State& state) {
 
 void VtkFrames::Writer::write_script() const {
   const double scale = amplification_ != 1 ? amplification_ : visible_scale(*model_, largest_displacement_);
-  write_text_file(folder_ / "open_in_paraview.py", paraview_script(*model_, "nsframe", scale));
+  write_text_file(folder_ / "open_in_paraview.py",
+                  paraview_script(*model_, {"nsframe", scale, largest_displacement_, largest_time_}));
 }
 
 VtkFrames::VtkFrames(std::filesystem::path folder, const OutputOptions& options)

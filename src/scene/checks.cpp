@@ -56,7 +56,20 @@ void check(TableReader& table, const SlabTable& slab) {
   if (slab.kind != SlabKind::links && !slab.center) table.error("kind", "a rigid slab or diaphragm needs a center");
 }
 
+namespace {
+
+// L1, T2, R1, V1: a direction and the number of the mode in it.
+bool is_mode_name(std::string_view name) {
+  return name.size() >= 2 && name.size() <= 4 && std::string_view("LTRV").find(name[0]) != std::string_view::npos &&
+         name[1] != '0' && std::all_of(name.begin() + 1, name.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace
+
 void check(TableReader& table, const DampingTable& damping) {
+  for (const auto& [mode, ratio] : damping.ratios.named)
+    if (!is_mode_name(mode.name))
+      table.error(mode, fmt::format("'{}' is not the name of a mode: L, T, R or V and its number", mode.name));
   const bool named = !damping.ratios.named.empty(), listed = !damping.ratios.list.empty();
   switch (damping.kind) {
     case DampingKind::none:

@@ -45,6 +45,29 @@ void note_places(const toml::table& root, Scene& scene) {
   }
 }
 
+// A record named on the command line may also be relative to the current directory.
+void find_overridden_records(Scene& scene) {
+  std::error_code ignored;
+  for (MotionTable& motion : scene.tables.motions) {
+    if (!motion.file.at.file.starts_with("--set ")) continue;
+    const std::filesystem::path file = motion.file.name;
+    if (std::filesystem::exists(scene.directory / file, ignored) || !std::filesystem::exists(file, ignored)) continue;
+    motion.file.name = std::filesystem::absolute(file).string();
+  }
+}
+
+// build_model() doesn't see what is to be kept.
+void check_output_nodes(const Scene& scene, Diagnostics& diagnostics) {
+  std::vector<std::string> known;
+  for (const StructureDescription& structure : scene.model.structures)
+    for (const NodeDescription& node : structure.nodes) known.push_back(structure.name + "." + node.id);
+  const std::set<std::string> found(known.begin(), known.end());
+  for (const std::string& node : scene.output.nodes)
+    if (!found.contains(node))
+      diagnostics.error(scene.places.at("output.nodes"),
+                        fmt::format("there is no node '{}'{}", node, did_you_mean(node, known)));
+}
+
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& directory,
@@ -56,7 +79,9 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   Reader reader(diagnostics);
   reader.read({{&root}, std::nullopt, {name, 0, 0}}, Field{.key = "scene", .text = ""}, scene);
   note_places(root, scene);
+  find_overridden_records(scene);
   describe_model(scene, diagnostics);
+  if (diagnostics.empty()) check_output_nodes(scene, diagnostics);
   return scene;
 }
 

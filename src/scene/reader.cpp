@@ -151,13 +151,13 @@ void Reader::read(const Value& value, const Field& field, std::string& out) {
 void Reader::read(const Value& value, const Field& field, Reference& out) {
   out.at = value.at;
   const toml::node* node = value.single();
-  if (value.text && !node) {
+  if (value.text && !node && !value.text->empty()) {
     out.name = *value.text;
   } else if (node && node->is_integer()) {
     out.name = std::to_string(node->as_integer()->get());
   } else if (node && node->is_string() && !node->as_string()->get().empty()) {
     out.name = node->as_string()->get();
-  } else if (node && node->is_string()) {
+  } else if (value.text || (node && node->is_string())) {
     error(value.at, fmt::format("{} is empty, must be a name", field.key));
   } else {
     wrong_type(value, field, "a name or a whole number");
@@ -306,6 +306,9 @@ void Reader::read(const Value& value, const Field& field, StructureTable& out) {
       read_entries(table_entries(table), value.at, parametric, "model");
     return;
   }
+  for (const char* key : {"stories", "plan"})
+    if (table.contains(key) && !table.contains("nodes"))
+      return error(value.at, fmt::format("'{}' needs model = \"story_frame\"; an explicit structure has nodes", key));
   auto& structure = out.emplace<ExplicitStructure>();
   structure.name = name;
   read_entries(table_entries(table), value.at, structure);

@@ -118,6 +118,7 @@ class TableReader {
 
   // For checks.hpp: an error at the value of `key`, or at the table when it isn't there.
   void error(std::string_view key, std::string message);
+  void error(const Reference& reference, std::string message) { reader_.error(reference.at, std::move(message)); }
   bool has(std::string_view key) { return find(key) != nullptr; }
 
  private:

@@ -33,7 +33,7 @@ constexpr std::string_view scalar_key(const Table*) {
 }
 
 inline constexpr Range gauss_points{3, 10, false, false};
-inline constexpr Range count{1, 1e6, false, false};
+inline constexpr Range count{1, 1000};
 
 // --- materials
 // --------------------------------------------------------------------------------------------------------
@@ -201,7 +201,7 @@ void visit(Archive& ar, AnalysisOptions& a) {
      a.gamma);
   ar(Field{"newton_tolerance", "residual relative to the largest force of the step", {}, range::positive},
      a.newton_tolerance);
-  ar(Field{"max_newton", "iterations of a step", {}, count}, a.max_newton);
+  ar(Field{"max_newton", "iterations of a step", {}, {1, 1e6}}, a.max_newton);
   ar(Field{"max_halvings", "of a step whose iterations fail", {}, {0, 60}}, a.max_halvings);
   ar(Field{"contact_solver", "of the contact problem"}, a.contact_solver);
   ar(Field{"contact_tolerance", "complementarity error relative to the approach velocity", {}, range::positive},

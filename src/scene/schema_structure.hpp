@@ -225,13 +225,15 @@ void visit(Archive& ar, FrameBase& b) {
 }
 constexpr std::string_view scalar_key(const FrameBase*) { return "kind"; }
 
+inline constexpr Range building_length{0, 1e5, true, false};  // [m]; sums of many stay finite
+
 template <class Archive>
 void visit(Archive& ar, StoryFrameTable& t) {
   StoryFrame& f = t.frame;
   ar(Field{"stories", "number of stories", {}, {1, 1000}}, f.stories);
-  ar(Field{"height", "of a story; one, or one a story", dimension::length, range::positive}, f.height);
+  ar(Field{"height", "of a story; one, or one a story", dimension::length, building_length}, f.height);
   ar(required("plan", "lengths along x and y; a list of spans in place of a length", dimension::length,
-              range::positive),
+              building_length),
      f.plan);
   ar(Field{"bays", "equal bays along x and y", {}, {1, 1000}}, f.bays);
   ar(Field{"origin", "the plan's corner of lowest x and y, at the base", dimension::length}, f.origin);

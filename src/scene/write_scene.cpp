@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 
 #include "scene/describe.hpp"
 #include "scene/writer.hpp"
@@ -27,7 +28,8 @@ std::string toml_key(std::string_view key) {
   return bare ? std::string(key) : toml_text(key);
 }
 
-std::string toml_number(double value) { return fmt::format("{}", value); }
+// TOML reads -0 as a whole number without sign.
+std::string toml_number(double value) { return value == 0 && std::signbit(value) ? "-0.0" : fmt::format("{}", value); }
 
 // A whole number where that reads back as the same name.
 std::string toml_name(const Reference& reference) {

@@ -22,7 +22,7 @@ class ValueWriter {
   std::string write(double value) const { return toml_number(value); }
   std::string write(int value) const { return std::to_string(value); }
   std::string write(bool value) const { return value ? "true" : "false"; }
-  std::string write(const std::string& value) const { return value.empty() ? "" : toml_text(value); }
+  std::string write(const std::string& value) const { return toml_text(value); }
   std::string write(const Reference& value) const { return value.name.empty() ? "" : toml_name(value); }
   std::string write(const Direction& value) const;
   std::string write(const DofSet& value) const;
@@ -81,6 +81,8 @@ class TableWriter {
   void operator()(const Field& field, const T& value) {
     ++fields_;
     std::string text = values_.write(value);
+    if constexpr (requires(T copy) { copy.pop_back(); })
+      if (text.empty() && field.presence == Presence::required) text = "[]";
     if (!text.empty()) entries_.emplace_back(field.key, std::move(text));
   }
   std::string lines() const;

@@ -107,10 +107,11 @@ TEST_CASE("the tangent of every element equals central differences, elastic, yie
       Matrix12 tangent, differences;
       probe.force(u, &tangent);
       for (int i = 0; i < 12; ++i) {
-        const double h = 1e-6;  // [m, rad] the force-based element's own iterations stop at 1e-8 of the force
+        const double h = 1e-6;  // [m, rad]
         differences.col(i) = (probe.force(u + h * Vector12::Unit(i)) - probe.force(u - h * Vector12::Unit(i))) / (2 * h);
       }
-      CHECK((tangent - differences).cwiseAbs().maxCoeff() < 2e-5 * tangent.cwiseAbs().maxCoeff());
+      // a force-based element's sections stop at 1e-4 of the step's change from the state of its tangent
+      CHECK((tangent - differences).cwiseAbs().maxCoeff() < 1e-4 * tangent.cwiseAbs().maxCoeff());
       probe.force(u);
       probe.commit();
     }

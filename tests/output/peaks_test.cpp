@@ -16,7 +16,8 @@ TEST_CASE("peaks are the largest absolute values of the nodes' motion over a run
   State before = sample_state(model);
   tracker.start(model, before);
   const int node = node_index(model, "right.22");
-  Vector3 displacement = model.dofs.expand(before.displacement).segment<3>(6 * node).cwiseAbs(), acceleration = Vector3::Zero();
+  Vector3 displacement = model.dofs.expand(before.displacement).segment<3>(6 * node).cwiseAbs(),
+          acceleration = Vector3::Zero();
   for (int i = 1; i <= 50; ++i) {
     State after = before;
     after.time = 0.01 * i;

@@ -4,9 +4,9 @@
 
 #include <stdlib.h>
 
+#include <fmt/format.h>
 #include <cmath>
 #include <filesystem>
-#include <fmt/format.h>
 
 #include "elements/catalogue.hpp"
 #include "integrators/simulation.hpp"
@@ -14,9 +14,9 @@
 
 namespace nsframe::test {
 
-inline constexpr double story_height = 2.5;                  // [m]
-inline constexpr double span_x = 3.2, span_y = 2.2;          // [m]
-inline constexpr double sample_gap[2] = {0.050, 0.055};      // [m] at low and high y
+inline constexpr double story_height = 2.5;              // [m]
+inline constexpr double span_x = 3.2, span_y = 2.2;      // [m]
+inline constexpr double sample_gap[2] = {0.050, 0.055};  // [m] at low and high y
 
 inline SectionDescription sample_section(const std::string& name) {
   const CatalogueShape* shape = find_shape(name);

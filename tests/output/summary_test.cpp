@@ -85,9 +85,9 @@ TEST_CASE("the summary file has every key of the contract and the numbers of the
   const Summary summary = sample_summary();
   write_summary(summary, folder / "summary.json");
   const auto json = nlohmann::json::parse(content(folder / "summary.json"));
-  for (const char* key : {"scheme", "dt", "steps", "dofs", "frequencies", "impacts", "poundings", "peaks", "energy",
-                          "numerical_damping", "max_penetration", "newton_iterations", "timing", "warnings",
-                          "completed", "stop_reason", "title"}) {
+  for (const char* key :
+       {"scheme", "dt", "steps", "dofs", "frequencies", "impacts", "poundings", "peaks", "energy", "numerical_damping",
+        "max_penetration", "newton_iterations", "timing", "warnings", "completed", "stop_reason", "title"}) {
     CHECK_MESSAGE(json.contains(key), key);
   }
   CHECK(json["impacts"].size() == 30);
@@ -112,8 +112,9 @@ TEST_CASE("the summary of a run that blew up is still valid JSON") {
 TEST_CASE("the scheme's own damping is named where it drowns what the scene asks for") {
   const auto warnings = numerical_warnings(sample_summary());
   REQUIRE(warnings.size() == 1);
-  CHECK(warnings[0] == "theta = 1 at dt = 1 ms adds 2.1 % damping to mode L2 of 'right', which asks for 0.2 %, and too "
-                       "much to 1 other mode: impacts may be missed");
+  CHECK(warnings[0] ==
+        "theta = 1 at dt = 1 ms adds 2.1 % damping to mode L2 of 'right', which asks for 0.2 %, and too "
+        "much to 1 other mode: impacts may be missed");
 }
 
 TEST_CASE("a scheme that adds no damping and no shift gives no warning") {

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -46,9 +47,7 @@ Vector3 value_at(vtkDataArray* array, vtkIdType i) {
   return {array->GetComponent(i, 0), array->GetComponent(i, 1), array->GetComponent(i, 2)};
 }
 
-Vector3 point_at(vtkUnstructuredGrid* grid, vtkIdType i) {
-  return Eigen::Map<const Vector3>(grid->GetPoint(i));
-}
+Vector3 point_at(vtkUnstructuredGrid* grid, vtkIdType i) { return Eigen::Map<const Vector3>(grid->GetPoint(i)); }
 
 std::string content(const std::filesystem::path& path) {
   std::ifstream file(path);
@@ -90,7 +89,8 @@ TEST_CASE("VTK reads a frame back with all its fields, true to size and without 
   for (const char* name : {"kind", "element", "pair", "structure", "peak_strain_ratio", "yielded", "gap", "impulse"}) {
     CHECK_MESSAGE(grid->GetCellData()->GetArray(name) != nullptr, name);
   }
-  for (vtkFieldData* fields : {static_cast<vtkFieldData*>(grid->GetPointData()), static_cast<vtkFieldData*>(grid->GetCellData())}) {
+  for (vtkFieldData* fields :
+       {static_cast<vtkFieldData*>(grid->GetPointData()), static_cast<vtkFieldData*>(grid->GetCellData())}) {
     for (int a = 0; a < fields->GetNumberOfArrays(); ++a) {
       vtkDataArray* array = fields->GetArray(a);
       bool finite = true;
@@ -115,8 +115,7 @@ TEST_CASE("members, slabs and contacts have the cells that close their surfaces"
   const FrameGeometry geometry = frame_geometry(model, 12);
   const auto hea = shape_outline(*find_shape("HEA100")).size(), ipe = shape_outline(*find_shape("IPE200")).size();
   const std::size_t columns = 16, beams = 16, slabs = 4, pairs = 4;
-  CHECK(static_cast<std::size_t>(geometry.points()) ==
-        13 * (columns * hea + beams * ipe) + 8 * slabs + 2 * pairs);
+  CHECK(static_cast<std::size_t>(geometry.points()) == 13 * (columns * hea + beams * ipe) + 8 * slabs + 2 * pairs);
   CHECK(static_cast<std::size_t>(geometry.cells()) ==
         columns * (12 * hea + 2 * (hea - 2)) + beams * (12 * ipe + 2 * (ipe - 2)) + slabs * 8 + pairs);
   // Outward triangles and quadrilaterals of a closed surface enclose its volume (divergence theorem).
@@ -124,7 +123,8 @@ TEST_CASE("members, slabs and contacts have the cells that close their surfaces"
   for (std::size_t cell = 0; cell < geometry.type.size(); ++cell) {
     if (geometry.type[cell] == CellType::line) continue;
     const auto at = [&](int i) {
-      return geometry.position[static_cast<std::size_t>(geometry.connectivity[static_cast<std::size_t>(geometry.offset[cell] + i)])];
+      return geometry.position[static_cast<std::size_t>(
+          geometry.connectivity[static_cast<std::size_t>(geometry.offset[cell] + i)])];
     };
     double& part = volume[geometry.element[cell] < 0 ? 32 : static_cast<std::size_t>(geometry.element[cell])];
     part += at(0).dot(at(1).cross(at(2))) / 6;
@@ -134,7 +134,8 @@ TEST_CASE("members, slabs and contacts have the cells that close their surfaces"
   const int column = static_cast<int>(std::find(geometry.element_ids.begin(), geometry.element_ids.end(), "left.c11") -
                                       geometry.element_ids.begin());
   REQUIRE(column < 32);
-  CHECK(volume[static_cast<std::size_t>(column)] == doctest::Approx(story_height * find_shape("HEA100")->A).epsilon(0.1));
+  CHECK(volume[static_cast<std::size_t>(column)] ==
+        doctest::Approx(story_height * find_shape("HEA100")->A).epsilon(0.1));
 }
 
 TEST_CASE("the outline of a column's section stands around its axis, its depth along the local y axis") {
@@ -177,7 +178,8 @@ TEST_CASE("drawn ends move with their nodes, and sections turn with them") {
       const double along = geometry.along[static_cast<std::size_t>(cell)];
       if (along != 0 && along != 1) continue;  // the end caps
       const int node = group.nodes(drawn.element)[along == 0 ? 0 : 1];
-      const vtkIdType point = geometry.connectivity[static_cast<std::size_t>(geometry.offset[static_cast<std::size_t>(cell)])];
+      const vtkIdType point =
+          geometry.connectivity[static_cast<std::size_t>(geometry.offset[static_cast<std::size_t>(cell)])];
       const Vector3 arm = point_at(grid, point) - model.nodes.position[static_cast<std::size_t>(node)];
       const Vector3 turn = full.segment<3>(6 * node + 3), spin = rate.segment<3>(6 * node + 3);
       CHECK((value_at(displacement, point) - full.segment<3>(6 * node) - turn.cross(arm)).norm() < 1e-15);
@@ -205,7 +207,8 @@ TEST_CASE("a beam is drawn with the cubic of its shape functions") {
   bool found = false;
   for (const auto& drawn : geometry.drawn) {
     if (model.groups[drawn.group]->id(drawn.element) != "left.c11") continue;
-    const int first = geometry.connectivity[static_cast<std::size_t>(geometry.offset[static_cast<std::size_t>(drawn.first_cell)])];
+    const int first =
+        geometry.connectivity[static_cast<std::size_t>(geometry.offset[static_cast<std::size_t>(drawn.first_cell)])];
     const int station = geometry.station[static_cast<std::size_t>(first)] + 6;  // at half height
     // u(s) = theta L s^2 (s - 1) across the axis with u' = theta at the top; rotation ry of the axis z is u'.
     CHECK(stations[6 * station] == doctest::Approx(0.01 * story_height * 0.25 * -0.5).epsilon(1e-12));
@@ -219,10 +222,12 @@ TEST_CASE("frames are the steps nearest to the frame times, and sum the impulses
   const TemporaryFolder folder;
   const Model model = sample_pair();
   VtkFrames frames(folder.path(), at_rate(250));
-  State before = sample_state(model);
+  const State moved = sample_state(model);
+  State before = moved;
+  before.displacement.setZero();
   frames.start(model, before);
   for (int i = 1; i <= 20; ++i) {
-    State after = before;
+    State after = moved;
     after.time = 1e-3 * i;
     after.impulse = VectorX::Zero(4);
     after.impulse[2] = 10;
@@ -239,6 +244,10 @@ TEST_CASE("frames are the steps nearest to the frame times, and sum the impulses
   double sum = 0;
   for (vtkIdType i = 0; i < impulse->GetNumberOfTuples(); ++i) sum += impulse->GetComponent(i, 0);
   CHECK(sum == 40);
+  CHECK(impulse->GetFiniteRange(0)[1] == 40);  // also as the file says it, where ParaView takes its colours from
+  double displacement[2];
+  grid->GetPointData()->GetArray("displacement")->GetRange(displacement, -1);
+  CHECK(displacement[1] > 0);
   vtkDataArray* gap = grid->GetCellData()->GetArray("gap");
   const VectorX expected = model.contacts.jacobian * before.displacement + model.contacts.initial_gap;
   CHECK(gap->GetComponent(grid->GetNumberOfCells() - 4, 0) == doctest::Approx(expected[0]).epsilon(1e-14));
@@ -326,6 +335,26 @@ TEST_CASE("the scale of the ParaView script makes the largest displacement visib
   const double scale = visible_scale(model, 0.01);
   CHECK(scale * 0.01 > 0.02 * 8.6);  // the diagonal of the pair is 8.6 m
   CHECK(scale * 0.01 < 0.08 * 8.6);
+}
+
+TEST_CASE("the ParaView script is valid Python that names the frames and starts at the largest displacement") {
+  const TemporaryFolder folder;
+  const Model model = sample_pair();
+  VtkFrames frames(folder.path(), at_rate(1000));
+  const State rest = sample_state(model);
+  frames.start(model, rest);
+  State peak = rest;
+  peak.time = 1e-3;
+  peak.displacement *= 3;
+  frames.step(rest, peak, {}, {});
+  frames.finish();
+  const std::string script = content(folder / "open_in_paraview.py");
+  CHECK(script.find("AnimationTime = 0.001") != std::string::npos);
+  CHECK(script.find("\"frames.pvd\"") != std::string::npos);
+  CHECK(script.find("t = {time:.3f} s") != std::string::npos);
+  CHECK(script.find("{scale") == std::string::npos);
+  const std::string command = "python3 -m py_compile '" + (folder / "open_in_paraview.py").string() + "' 2>&1";
+  if (std::system("python3 --version > /dev/null 2>&1") == 0) CHECK(std::system(command.c_str()) == 0);
 }
 
 #endif

@@ -106,6 +106,18 @@ TEST_CASE("a missing key is an error at its table") {
   CHECK(error("[structure.a]\nnodes = [[1, 0, 0]]") == "s.toml:2:10: error: missing key 'z'");
 }
 
+TEST_CASE("an empty name is an error") {
+  CHECK(error("[structure.a]\nnodes = []\nsupports = { \"\" = \"fixed\" }") ==
+        "s.toml:3:14: error: node is empty, must be a name");
+  CHECK(error("[section.a]\nshape = \"HEA100\"\nmaterial = \"\"") ==
+        "s.toml:3:12: error: material is empty, must be a name");
+}
+
+TEST_CASE("a table's name that is none is an error") {
+  Diagnostics diagnostics;
+  CHECK_THROWS_AS(parse_scene("[=ection.a]\n", "s.toml", {}, {}, diagnostics), InputError);
+}
+
 TEST_CASE("a row of too many values is an error") {
   CHECK(error("[structure.a]\nnodes = [[1, 0, 0, 0, 0]]") ==
         "s.toml:2:10: error: a row of nodes has at most 4 values, not 5");
@@ -145,6 +157,27 @@ TEST_CASE("damping that doesn't fit its kind is an error") {
         "s.toml:3:11: error: rayleigh damping by frequencies needs one ratio, or two");
   CHECK(error(head + "damping = { kind = \"modal\", ratios = { L1 = -0.01 } }") ==
         "s.toml:3:45: error: L1 = -0.01, must not be negative");
+}
+
+TEST_CASE("a ratio for no mode is an error") {
+  CHECK(error("[structure.a]\nnodes = []\ndamping = { kind = \"modal\", ratios = { L1 = 0.01, X1 = 0.01 } }") ==
+        "s.toml:3:51: error: 'X1' is not the name of a mode: L, T, R or V and its number");
+}
+
+TEST_CASE("a parametric structure that doesn't name its model is an error") {
+  CHECK(error("[structure.a]\nstories = 2\nplan = [3, 2]") ==
+        "s.toml:1:12: error: 'stories' needs model = \"story_frame\"; an explicit structure has nodes");
+}
+
+TEST_CASE("a frame of more nodes than any memory holds is an error") {
+  CHECK(error("[structure.a]\nmodel = \"story_frame\"\nplan = [3, 2]\ncolumns = { section = \"c\" }\n"
+              "stories = 999\nbays = [999, 999]") ==
+        "s.toml:5:11: error: stories and bays make 1000000000 nodes, at most 1000000 are allowed");
+}
+
+TEST_CASE("a node to keep that isn't in the scene is an error") {
+  CHECK(error("[structure.left]\nnodes = [[1, 0, 0, 0], [2, 0, 0, 1]]\n[output]\nnodes = [\"left.1\", \"lef.2\"]") ==
+        "s.toml:4:9: error: there is no node 'lef.2'; did you mean 'left.2'?");
 }
 
 TEST_CASE("a contact without two sides is an error") {

@@ -60,6 +60,22 @@ TEST_CASE("overrides of the motion reach all motions, and may make one") {
   }
 }
 
+TEST_CASE("a record named by an override is found from the scene or from the current directory") {
+  const test::TemporaryDirectory here, there;
+  here.write("here.txt", "1\n");
+  there.write("there.txt", "2\n");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(here.path());
+  for (const char* file : {"here.txt", "there.txt"}) {
+    Diagnostics diagnostics;
+    const Scene s = parse_scene("", "s.toml", there.path(),
+                                {std::string("motion.file=") + file, "motion.dt=1", "motion.unit=m/s2"}, diagnostics);
+    CHECK(diagnostics.messages().empty());
+    CHECK(s.model.motions.size() == 1);
+  }
+  std::filesystem::current_path(before);
+}
+
 TEST_CASE("errors in overrides are shown at the override") {
   CHECK(error(pair, {"analysis.dt=0"}) == "--set analysis.dt: error: dt = 0, must be positive");
   CHECK(error(pair, {"analysis.tehta=1"}) == "--set analysis.tehta: error: unknown key 'tehta'; did you mean 'theta'?");

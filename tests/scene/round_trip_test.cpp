@@ -130,7 +130,7 @@ statically_first = false
 contact_solver = "gauss-seidel"
 threads = 2
 [output]
-nodes = ["a.top", "b.11"]
+nodes = ["a.top", "b.101"]
 )";
 
 }  // namespace
@@ -146,6 +146,15 @@ TEST_CASE("a scene written back and read again is the same scene") {
   const Scene first = scene(everything), second = scene(write_scene(first));
   CHECK(difference(dump(first.model), dump(second.model)) == "");
   CHECK(difference(write_scene(first), write_scene(second)) == "");
+}
+
+TEST_CASE("empty lists, empty texts and negative zeros survive writing") {
+  const Scene first =
+      scene("[structure.a]\nnodes = []\n[structure.b]\nnodes = [[1, -0.0, 0, 0]]\n[analysis]\nscheme = \"\"");
+  const Scene second = scene(write_scene(first));
+  CHECK(difference(dump(first.model), dump(second.model)) == "");
+  CHECK(difference(write_scene(first), write_scene(second)) == "");
+  CHECK(second.analysis.scheme.empty());
 }
 
 TEST_CASE("a scene expanded to explicit nodes and elements describes the same model") {

@@ -1,0 +1,217 @@
+#!/usr/bin/env python3
+"""Render one frame of an nsframe run to a PNG, without a display.
+
+    render_frame.py RUN_FOLDER -o frame.png [--time 4.2 | --impact] [--scale 20]
+
+Reads frames.pvd, and summary.json if it is there. Needs pyvista.
+"""
+import argparse
+import json
+import math
+import pathlib
+
+import numpy as np
+import pyvista as pv
+
+CONTACT, SLAB = 0, 1  # codes of the cell field "kind"
+MARK = "#d55e00"      # vermilion of the Okabe-Ito palette
+
+
+def parse():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("run", type=pathlib.Path, help="folder with frames.pvd")
+    parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("frame.png"))
+    parser.add_argument("--time", type=float, help="model time [s]; default: the frame with the largest impulse")
+    parser.add_argument("--scale", type=float, help="factor on the displacements; default: visible")
+    parser.add_argument("--true-gaps", action="store_true",
+                        help="do not scale the gaps with the displacements (buildings that touch then seem to overlap)")
+    parser.add_argument("--field", default="displacement", choices=["displacement", "velocity", "peak_strain_ratio"])
+    parser.add_argument("--size", type=int, nargs=2, default=(1600, 1000), metavar=("WIDTH", "HEIGHT"))
+    parser.add_argument("--view", type=float, nargs=3, default=(0.45, -1.0, 0.32), metavar=("X", "Y", "Z"),
+                        help="direction from the model to the camera")
+    parser.add_argument("--title", help="default: the run's title")
+    return parser.parse_args()
+
+
+def read_frames(run):
+    reader = pv.get_reader(str(run / "frames.pvd"))
+    return reader, np.asarray(reader.time_values)
+
+
+def read_frame(reader, index):
+    reader.set_active_time_point(int(index))
+    mesh = reader.read()
+    return mesh[0] if isinstance(mesh, pv.MultiBlock) else mesh
+
+
+def choose_frame(arguments, reader, times, summary):
+    """Index of the frame at --time, else of the first one after the strongest impact, else of the middle one."""
+    if arguments.time is not None:
+        return int(np.argmin(np.abs(times - arguments.time)))
+    impacts = summary.get("impacts", [])
+    if impacts:
+        strongest = max(impacts, key=lambda impact: impact["impulse"])
+        return min(int(np.searchsorted(times, strongest["t"] - 1e-9)), len(times) - 1)
+    return len(times) // 2
+
+
+def visible_scale(mesh):
+    """Draws the largest displacement as about 4 % of the model's diagonal, rounded to 1, 2 or 5 times 10^n."""
+    largest = np.linalg.norm(mesh["displacement"], axis=1).max()
+    wanted = 0.04 * mesh.length
+    if largest <= 0 or largest >= wanted:
+        return 1.0
+    decade = 10 ** math.floor(math.log10(wanted / largest))
+    return max(1.0, decade * min((1, 2, 5, 10), key=lambda lead: abs(lead - wanted / largest / decade)))
+
+
+def structure_offsets(mesh, scale):
+    """How far each structure moves apart so that the gaps are drawn `scale` times wider too: contacts then close."""
+    structure, kind = mesh.cell_data["structure"], mesh.cell_data["kind"]
+    solids = {int(s): np.asarray(pick(mesh, (structure == s) & (kind != CONTACT)).points)
+              for s in np.unique(structure[kind != CONTACT])}
+    steps = {}
+    for cell in np.flatnonzero(kind == CONTACT):
+        first, second = np.asarray(mesh.get_cell(int(cell)).points)
+        near = min(solids, key=lambda s: np.min(np.linalg.norm(solids[s] - second, axis=1)))
+        if near != structure[cell]:
+            steps.setdefault((int(structure[cell]), near), []).append((scale - 1) * (second - first))
+    offsets = {}
+    for start in solids:
+        if start in offsets:
+            continue
+        offsets[start], waiting = np.zeros(3), [start]
+        while waiting:
+            known = waiting.pop()
+            for (a, b), moves in steps.items():
+                for here, there, sign in ((a, b, 1), (b, a, -1)):
+                    if here == known and there not in offsets:
+                        offsets[there] = offsets[known] + sign * np.mean(moves, axis=0)
+                        waiting.append(there)
+    return offsets
+
+
+def draw_apart(mesh, offsets):
+    """Moves the points of each structure by its offset; a contact's second point goes with the solid it lies on."""
+    structure, kind = mesh.cell_data["structure"], mesh.cell_data["kind"]
+    shift = np.zeros((mesh.n_points, 3))
+    owner = np.full(mesh.n_points, -1)
+    for cell in range(mesh.n_cells):
+        if kind[cell] != CONTACT:
+            owner[mesh.get_cell(cell).point_ids] = structure[cell]
+    for s, offset in offsets.items():
+        shift[owner == s] = offset
+    known = np.flatnonzero(owner >= 0)
+    for cell in np.flatnonzero(kind == CONTACT):
+        for point in mesh.get_cell(int(cell)).point_ids:
+            shift[point] = shift[known[np.argmin(np.linalg.norm(mesh.points[known] - mesh.points[point], axis=1))]]
+    return mesh.points + shift
+
+
+def pick(mesh, mask):
+    return mesh.extract_cells(np.flatnonzero(mask)) if mask.any() else None
+
+
+def colors_of(field, mesh):
+    """Adds the array to show and returns its name and its label."""
+    if field == "peak_strain_ratio":
+        return field, "largest strain /\nyield strain\n"
+    values = np.linalg.norm(mesh[field], axis=1)
+    mesh["shown"] = 1e3 * values if field == "displacement" else values
+    return "shown", "displacement\n(mm)\n" if field == "displacement" else "velocity\n(m/s)\n"
+
+
+def surface_of(mesh):
+    return mesh.extract_surface(algorithm="dataset_surface")
+
+
+def add_structures(plotter, reference, deformed, field):
+    name, label = colors_of(field, deformed)
+    kind = deformed.cell_data["kind"]
+    highest = float(np.max(deformed[name], initial=0)) or 1.0
+    style = dict(scalars=name, cmap="viridis", clim=(0, highest), show_scalar_bar=False)
+    shown = None
+    solids = pick(deformed, kind > SLAB)
+    if solids is not None:
+        shown = plotter.add_mesh(surface_of(solids), ambient=0.25, specular=0.1, line_width=4, **style)
+    slabs = pick(deformed, kind == SLAB)
+    if slabs is not None:
+        shown = plotter.add_mesh(slabs, opacity=0.55, ambient=0.3, **style)
+        plotter.add_mesh(surface_of(slabs).extract_feature_edges(20), color="#333333", line_width=2)
+    rest = pick(reference, kind == SLAB)
+    if rest is not None:
+        plotter.add_mesh(surface_of(rest).extract_feature_edges(20), color="#999999", line_width=1)
+    if shown is not None:
+        plotter.add_scalar_bar(label, mapper=shown.mapper, vertical=True, position_x=0.89, position_y=0.22, height=0.5,
+                               width=0.05, title_font_size=22, label_font_size=20, color="black", fmt="%.3g",
+                               n_labels=5)
+
+
+def add_contacts(plotter, deformed, size):
+    contacts = pick(deformed, deformed.cell_data["kind"] == CONTACT)
+    if contacts is None:
+        return 0
+    plotter.add_mesh(contacts, color="#666666", line_width=2)
+    hit = contacts.cell_data["impulse"] > 0
+    for cell in np.flatnonzero(hit):
+        impulse = contacts.cell_data["impulse"][cell]
+        center = np.asarray(contacts.get_cell(int(cell)).points).mean(axis=0)
+        plotter.add_mesh(pv.Sphere(radius=0.016 * size, center=center), color=MARK, ambient=0.4)
+        plotter.add_point_labels([center + [0, 0, 0.025 * size]], [f"{impulse:.0f} N s"], text_color=MARK, font_size=24,
+                                 shape="rounded_rect", shape_color="white",
+                                 shape_opacity=0.75, show_points=False, always_visible=True, bold=True)
+    return int(hit.sum())
+
+
+def add_axes(plotter, mesh):
+    """A box of whole steps around the model, with its grid behind."""
+    spans = np.array(mesh.bounds).reshape(3, 2)
+    largest = np.ptp(spans, axis=1).max()
+    step = min((lead * 10.0**n for n in range(-3, 5) for lead in (1, 2, 5)), key=lambda s: abs(largest / s - 6))
+    low, high = np.floor(spans[:, 0] / step + 0.2) * step, np.ceil(spans[:, 1] / step - 0.2) * step
+    high = np.maximum(high, low + step)
+    counts = np.rint((high - low) / step).astype(int) + 1
+    plotter.show_bounds(bounds=np.column_stack([low, high]).ravel().tolist(), xtitle="x (m)", ytitle="y (m)",
+                        ztitle="z (m)", color="black", font_size=20, location="outer", ticks="outside", grid="back",
+                        n_xlabels=int(counts[0]), n_ylabels=int(counts[1]), n_zlabels=int(counts[2]),
+                        fmt="%g", use_3d_text=False)
+
+
+def main():
+    arguments = parse()
+    summary_file = arguments.run / "summary.json"
+    summary = json.loads(summary_file.read_text()) if summary_file.exists() else {}
+    reader, times = read_frames(arguments.run)
+    index = choose_frame(arguments, reader, times, summary)
+    mesh = read_frame(reader, index)
+    scale = arguments.scale or visible_scale(mesh)
+    scale_gaps = scale != 1 and not arguments.true_gaps
+    if scale_gaps:
+        mesh.points = draw_apart(mesh, structure_offsets(mesh, scale))
+    deformed = mesh.copy()
+    deformed.points = mesh.points + scale * mesh["displacement"]
+
+    pv.OFF_SCREEN = True
+    plotter = pv.Plotter(off_screen=True, window_size=list(arguments.size), lighting="light kit")
+    plotter.set_background("white")
+    add_structures(plotter, mesh, deformed, arguments.field)
+    hits = add_contacts(plotter, deformed, mesh.length)
+
+    add_axes(plotter, mesh)
+    title = arguments.title or summary.get("title") or "nsframe"
+    plotter.add_text(title, position=(0.03, 0.93), viewport=True, font_size=17, color="black")
+    marks = f",  {hits} contact{'s' if hits != 1 else ''} hit (marked)" if hits else ""
+    gaps = " and gaps" if scale_gaps else ""
+    plotter.add_text(f"t = {times[index]:.3f} s,  displacements{gaps} x {scale:g}{marks}", position=(0.03, 0.88),
+                     viewport=True, font_size=13, color="#333333")
+    center = np.array(mesh.center)
+    plotter.camera_position = [center + 3 * mesh.length * np.array(arguments.view), center, (0, 0, 1)]
+    plotter.reset_camera()
+    plotter.camera.zoom(1.25)
+    plotter.enable_anti_aliasing("ssaa")
+    plotter.screenshot(str(arguments.output))
+    print(f"{arguments.output}: t = {times[index]:.3f} s, displacements x {scale:g}")
+
+
+if __name__ == "__main__":
+    main()
