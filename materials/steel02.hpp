@@ -72,7 +72,8 @@ HWY_INLINE Response<T, Steel02> respond(const Steel02& law, T strain_from_zero, 
   const T zero(0.0), one(1.0);
   const T strain = strain_from_zero + T(law.sigInit / E);
   const T increment = strain - committed.strain;
-  // 10 machine epsilons: a virgin fiber that has not moved has no direction yet
+  // 10 machine epsilons: a virgin fiber that has hardly moved has no direction yet, but already its elastic stress:
+  // a stress that stays behind would be a jump, on which sections in equilibrium with small forces do not converge
   const auto unmoved = both(committed.direction == zero, abs(increment) < T(2.220446049250313e-15));
   const auto rising = increment > zero;
   const T sign = select(rising, one, T(-1.0));
@@ -122,7 +123,7 @@ HWY_INLINE Response<T, Steel02> respond(const Steel02& law, T strain_from_zero, 
   const T tangent = (T(law.b) + bend) * (stress_range * inverse_range);
 
   h.strain = strain;
-  h.stress = select(unmoved, committed.stress, stress);
+  h.stress = select(unmoved, committed.stress + T(E) * increment, stress);
   h.direction = select(unmoved, zero, h.direction);
   return {h.stress, select(unmoved, T(E), tangent), h};
 }

@@ -165,6 +165,15 @@ TEST_CASE("Steel02 starts at its initial stress") {
   CHECK(point.probe(0.1 * yield).stress == doctest::Approx(0.3 * fy).epsilon(1e-9));  // 0.3^20/20 of the curve
 }
 
+TEST_CASE("a virgin Steel02 fiber answers elastically to strains of a few epsilons") {
+  Point point(Steel02{fy, E, b});
+  double strain = 0;
+  for (const double increment : {4 * epsilon, 4 * epsilon, -3 * epsilon, 20 * epsilon, 4 * epsilon}) {
+    strain += increment;
+    CHECK(point.move(strain).stress == doctest::Approx(E * strain).epsilon(1e-12));  // some 1000 epsilons
+  }
+}
+
 TEST_CASE("isotropic hardening of Steel02 widens the cycle") {
   Point kinematic(Steel02{fy, E, b}), isotropic(isotropic_steel);
   for (int cycle = 0; cycle < 4; ++cycle) {

@@ -1,0 +1,65 @@
+// Time a fiber of a section's response (stress, tangent, history, section sums), by the SIMD kernel and by the scalar
+// definition: an HEA140 of 52 fibers swept through strains of two to four times yield.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "elements/catalogue.hpp"
+#include "elements/fiber_section.hpp"
+
+namespace {
+
+using namespace nsframe;
+
+FiberSection section_of(const UniaxialLaw& law) {
+  std::vector<Fiber> fibers;
+  for (const FiberDescription& fiber : shape_fibers(*find_shape("HEA140"), ShapeMesh{}, {})) {
+    fibers.push_back({fiber.y, fiber.z, fiber.area, law});
+  }
+  return FiberSection(fibers, 1e4);
+}
+
+// A smooth history of (e0, kz, ky) with reversals, neither period a multiple of the other.
+std::vector<Vector3> deformations() {
+  std::vector<Vector3> path;
+  for (int i = 0; i < 1000; ++i) {
+    const double a = 2 * pi * i / 250, b = 2 * pi * i / 330;
+    path.emplace_back(5e-4 * std::sin(a), 0.06 * std::sin(b), 0.01 * std::sin(a + b));
+  }
+  return path;
+}
+
+using Respond = SectionResponse (*)(const FiberSection&, const Vector3&, const double*, double*);
+
+void run(benchmark::State& state, Respond evaluate, const UniaxialLaw& law) {
+  const FiberSection section = section_of(law);
+  const std::vector<Vector3> path = deformations();
+  VectorX committed(section.history_size), trial(section.history_size);
+  initialize_history(section, committed.data());
+  trial = committed;
+  std::size_t i = 0;
+  for (auto _ : state) {
+    const SectionResponse response = evaluate(section, path[i], committed.data(), trial.data());
+    benchmark::DoNotOptimize(response);
+    committed.swap(trial);
+    if (++i == path.size()) i = 0;
+  }
+  state.counters["s/fiber"] = benchmark::Counter(
+      section.fibers, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+const Elastic elastic{210e9};
+const ElasticPP perfectly_plastic{210e9, 235e6 / 210e9};
+const Steel01 steel01{235e6, 210e9, 0.01};
+const Steel02 steel02{235e6, 210e9, 0.01};
+
+BENCHMARK_CAPTURE(run, kernel/Elastic, respond, elastic);
+BENCHMARK_CAPTURE(run, kernel/ElasticPP, respond, perfectly_plastic);
+BENCHMARK_CAPTURE(run, kernel/Steel01, respond, steel01);
+BENCHMARK_CAPTURE(run, kernel/Steel02, respond, steel02);
+BENCHMARK_CAPTURE(run, scalar/Elastic, respond_scalar, elastic);
+BENCHMARK_CAPTURE(run, scalar/ElasticPP, respond_scalar, perfectly_plastic);
+BENCHMARK_CAPTURE(run, scalar/Steel01, respond_scalar, steel01);
+BENCHMARK_CAPTURE(run, scalar/Steel02, respond_scalar, steel02);
+
+}  // namespace

@@ -1,0 +1,118 @@
+"""Speed and error of the two-story pair: nsframe, and OpenSees in the same go where openseespy can be imported.
+
+    python3 bench/two_story.py                        (with the python that has openseespy)
+    python3 bench/two_story.py --opensees-python P    (openseespy is in interpreter P)
+
+Writes bench/results/two_story.md and .json. Standard library only. What the numbers mean: bench/README.md.
+"""
+import argparse
+import sys
+
+import references
+from harness import BenchError, Nsframe, arguments, machine, number, opensees_python, progress, step_microseconds, table, write
+from pair import CASES, ROOF_NODES, Opensees, largest_difference, run_nsframe
+
+TITLES = {"elastic": "Elastic columns", "displacement-based": "Fiber columns, Steel02, displacement-based",
+          "force-based": "Fiber columns, Steel02, force-based"}
+DURATION = {"elastic": 20.0, "displacement-based": 6.0, "force-based": 6.0}  # [s] of motion for speed and peaks
+# theta, gamma, dt [s], runs; the first is the setting of the paper
+NSFRAME = {"elastic": [(1.0, 1.5, 1e-3, 7), (0.5, 0.5, 1e-3, 7), (0.5, 0.5, 1e-4, 3), (0.5, 0.5, 1e-5, 1)],
+           "displacement-based": [(1.0, 1.5, 1e-3, 3), (0.5, 0.5, 1e-3, 3), (0.5, 0.5, 1e-4, 1)],
+           "force-based": [(1.0, 1.5, 1e-3, 3), (0.5, 0.5, 1e-3, 3), (0.5, 0.5, 1e-4, 1)]}
+# penalty [N/m], dt [s], runs, duration [s] or None for that of the case; the first is the fastest
+OPENSEES = {"elastic": [(1e8, 1e-3, 3, None), (1e9, 1e-4, 1, 6.0)], "displacement-based": [(1e8, 1e-3, 2, None)],
+            "force-based": [(1e8, 1e-3, 2, None)]}
+QUICK = 0.05  # [s]
+
+
+def nsframe_row(nsframe, columns, reference, setting, duration):
+    theta, gamma, dt, runs = setting
+    progress("%s: nsframe, theta = %g, gamma = %g, dt = %g s" % (columns, theta, gamma, dt))
+    window = reference[1][-1]
+    times = []
+    for run in range(runs):
+        summary, usage, time, roof = run_nsframe(nsframe, columns, dt, duration, theta, gamma,
+                                                 history=references.INTERVAL if run == 0 else 0)
+        times.append(step_microseconds(summary))
+        if run == 0:
+            error = compare(reference, time, roof, min(window, duration))
+    peaks = {peak["node"]: abs(peak["displacement"][0]) for peak in summary["peaks"]}
+    return dict(program="nsframe", setting="theta = %g, gamma = %g" % (theta, gamma), dt=dt, runs=runs, duration=duration,
+                step_us=min(times), step_us_all=times, memory_mb=usage["memory_mb"], error_m=error,
+                peaks_m=[peaks[node] for node in ROOF_NODES], poundings=len(summary["poundings"]),
+                iterations=summary["newton_iterations"] / summary["steps"])
+
+
+def opensees_row(opensees, columns, reference, setting, duration):
+    penalty, dt, runs, own_duration = setting
+    duration = own_duration or duration
+    progress("%s: OpenSees, penalty %g N/m, dt = %g s" % (columns, penalty, dt))
+    data, usage = opensees.run(columns, dt, duration, ["--history", references.INTERVAL, "--repeat", runs,
+                                                       "--penalty", penalty])
+    error = compare(reference, data["time"], data["roof"], min(reference[1][-1], duration))
+    return dict(program="OpenSees", version=data["version"], setting="penalty %.0e N/m" % penalty, dt=dt, runs=runs,
+                duration=duration, step_us=data["step_us"], step_us_all=data["step_us_all"],
+                memory_mb=usage["memory_mb"], error_m=error, peaks_m=data["peaks"], parted_steps=data["parted_steps"])
+
+
+def compare(reference, time, roof, end):
+    """Largest error of a facing roof corner's displacement in x until `end` [m]."""
+    keep = sum(1 for t in reference[1] if t <= end + 1e-9)
+    return largest_difference(reference[1][:keep], [corner[:keep] for corner in reference[2]], time, roof)[0]
+
+
+def text_of(columns, reference, rows):
+    slow = [row for row in rows if row["program"] == "OpenSees"]
+    lines = []
+    for row in rows:
+        ratio = slow[0]["step_us"] / row["step_us"] if slow and row["program"] == "nsframe" else None
+        per_second = row["step_us"] / row["dt"] * 1e-3  # [ms] of computing a second of motion
+        lines.append([row["program"] + ", " + row["setting"], "%g" % (1e3 * row["dt"]), number(row["step_us"]), number(ratio),
+                      number(per_second), number(1e3 * row["error_m"]),
+                      "%.1f, %.1f" % (1e3 * max(row["peaks_m"][:2]), 1e3 * max(row["peaks_m"][2:])),
+                      "%g" % row["duration"], number(row["memory_mb"])])
+    head = ["", "dt, ms", "µs a step", "OpenSees / it", "ms a second of motion", "largest error, mm", "roof peaks, mm",
+            "over, s", "memory, MB"]
+    known = reference[0]
+    return "## %s\n\nReference: theta = %g, gamma = %g, dt = %g s over %g s; twice the step differs by %s mm.\n\n%s" % (
+        TITLES[columns], known["theta"], known["gamma"], known["dt"], reference[1][-1],
+        number(1e3 * known["own_error_m"]), table(head, lines))
+
+
+def main():
+    parser = arguments(argparse.ArgumentParser(description=__doc__.splitlines()[0]))
+    parser.add_argument("--columns", choices=CASES, nargs="+", default=list(CASES))
+    parser.add_argument("--opensees-python", metavar="P", help="interpreter that has openseespy (default: this one)")
+    parser.add_argument("--no-opensees", action="store_true")
+    options = parser.parse_args()
+    nsframe = Nsframe(options.program)
+    python, reason = (None, "not asked for") if options.no_opensees else opensees_python(options.opensees_python)
+    opensees = Opensees(python) if python else None
+    host = machine()
+    data = dict(machine=host, opensees=reason or "run", cases={})
+    parts = []
+    for columns in options.columns:
+        reference = references.read(columns)
+        duration = QUICK if options.quick else DURATION[columns]
+        rows = []
+        for setting in NSFRAME[columns][:1] if options.quick else NSFRAME[columns]:
+            rows.append(nsframe_row(nsframe, columns, reference, setting, duration))
+        for setting in (OPENSEES[columns][:1] if options.quick else OPENSEES[columns]) if opensees else []:
+            rows.append(opensees_row(opensees, columns, reference, setting, duration))
+        data["cases"][columns] = dict(reference=reference[0], rows=rows)
+        parts.append(text_of(columns, reference, rows))
+    versions = {row["version"] for case in data["cases"].values() for row in case["rows"] if "version" in row}
+    intro = "# Two-story pair: speed and error\n\n%s. Least of several runs on one core.\n" % host
+    if opensees:
+        intro += ("OpenSees %s: modalDampingQ, BandSPD, KrylovNewton, Newmark 1/2, 1/4, test on displacement increments 1e-8.\n"
+                  % ", ".join(sorted(versions)))
+    else:
+        intro += "No rows of OpenSees: %s.\n" % reason
+    write(options.results, "two_story", intro + "\n" + "\n".join(parts), data)
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except BenchError as problem:
+        sys.exit("error: %s" % problem)
