@@ -101,8 +101,8 @@ def draw_impulses(axes, runs, labels):
             axes.plot(time, impulse, "o", ms=5, color=color, mfc=color if filled else "white",
                       label=", ".join(part for part in (pair.replace("|", " to "), label) if part))
     if pairs:
-        axes.set_ylim(0, 1.15 * axes.dataLim.y1)
-        axes.legend(loc="upper right", fontsize=8, framealpha=0.9)
+        axes.set_ylim(0, 1.5 * axes.dataLim.y1)  # room for the legend
+        axes.legend(loc="upper right", fontsize=8, ncols=4, frameon=False)
     else:
         axes.text(0.5, 0.5, "no impacts", transform=axes.transAxes, ha="center", va="center")
     axes.set_ylabel("impulse (N s)")
