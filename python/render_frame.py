@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Render one frame of an nsframe run to a PNG, without a display.
 
-    render_frame.py RUN_FOLDER -o frame.png [--time 4.2 | --impact] [--scale 20]
+    render_frame.py RUN_FOLDER -o frame.png [--time 4.2] [--scale 20] [--torsion 100]
 
-Reads frames.pvd, and summary.json if it is there. Needs pyvista.
+Reads frames.pvd, and summary.json if it is there. Needs pyvista (and Pillow, which comes with it).
 """
 import argparse
 import json
@@ -12,6 +12,7 @@ import pathlib
 
 import numpy as np
 import pyvista as pv
+from PIL import Image
 
 CONTACT, SLAB = 0, 1  # codes of the cell field "kind"
 MARK = "#d55e00"      # vermilion of the Okabe-Ito palette
@@ -23,10 +24,12 @@ def parse():
     parser.add_argument("-o", "--output", type=pathlib.Path, default=pathlib.Path("frame.png"))
     parser.add_argument("--time", type=float, help="model time [s]; default: the frame with the largest impulse")
     parser.add_argument("--scale", type=float, help="factor on the displacements; default: visible")
+    parser.add_argument("--torsion", type=float, metavar="FACTOR",
+                        help="factor on the twist of the slabs, about the corner hit; default: that of the displacements")
     parser.add_argument("--true-gaps", action="store_true",
                         help="do not scale the gaps with the displacements (buildings that touch then seem to overlap)")
     parser.add_argument("--field", default="displacement", choices=["displacement", "velocity", "peak_strain_ratio"])
-    parser.add_argument("--size", type=int, nargs=2, default=(1600, 1000), metavar=("WIDTH", "HEIGHT"))
+    parser.add_argument("--size", type=int, nargs=2, default=(1140, 760), metavar=("WIDTH", "HEIGHT"))
     parser.add_argument("--view", type=float, nargs=3, default=(0.45, -1.0, 0.32), metavar=("X", "Y", "Z"),
                         help="direction from the model to the camera")
     parser.add_argument("--title", help="default: the run's title")
@@ -65,8 +68,15 @@ def visible_scale(mesh):
     return max(1.0, decade * min((1, 2, 5, 10), key=lambda lead: abs(lead - wanted / largest / decade)))
 
 
+def reach(points, origin, normal, radius):
+    """How far the solid around a contact's node stands out beyond it along the normal."""
+    near = points[np.linalg.norm(np.cross(points - origin, normal), axis=1) < radius]
+    return max(0.0, float(np.max((near - origin) @ normal, initial=0.0)))
+
+
 def structure_offsets(mesh, scale):
-    """How far each structure moves apart so that the gaps are drawn `scale` times wider too: contacts then close."""
+    """How far each structure moves apart so that the gaps are drawn `scale` times wider too, between the faces of the
+    solids instead of the nodes: contacts then close where the solids touch."""
     structure, kind = mesh.cell_data["structure"], mesh.cell_data["kind"]
     solids = {int(s): np.asarray(pick(mesh, (structure == s) & (kind != CONTACT)).points)
               for s in np.unique(structure[kind != CONTACT])}
@@ -75,7 +85,11 @@ def structure_offsets(mesh, scale):
         first, second = np.asarray(mesh.get_cell(int(cell)).points)
         near = min(solids, key=lambda s: np.min(np.linalg.norm(solids[s] - second, axis=1)))
         if near != structure[cell]:
-            steps.setdefault((int(structure[cell]), near), []).append((scale - 1) * (second - first))
+            own, gap = int(structure[cell]), np.linalg.norm(second - first)
+            normal = (second - first) / gap if gap > 0 else np.zeros(3)
+            faces = (reach(solids[own], first, normal, 0.05 * mesh.length) +
+                     reach(solids[near], second, -normal, 0.05 * mesh.length))
+            steps.setdefault((own, near), []).append((scale - 1) * (second - first) + faces * normal)
     offsets = {}
     for start in solids:
         if start in offsets:
@@ -108,6 +122,48 @@ def draw_apart(mesh, offsets):
     return mesh.points + shift
 
 
+def struck_corner(mesh, structure):
+    """Where the structure was hit hardest in this frame, or None."""
+    contacts = np.flatnonzero((mesh.cell_data["kind"] == CONTACT) & (mesh.cell_data["impulse"] > 0))
+    if not len(contacts):
+        return None
+    hardest = contacts[np.argmax(mesh.cell_data["impulse"][contacts])]
+    ends = np.asarray(mesh.get_cell(int(hardest)).points)
+    own = pick(mesh, (mesh.cell_data["structure"] == structure) & (mesh.cell_data["kind"] == SLAB))
+    if own is None:
+        return None
+    return min(ends, key=lambda end: np.min(np.linalg.norm(own.points - end, axis=1)))
+
+
+def twist_of(points, displacement):
+    """Rotation about z that fits the horizontal displacement of a slab's points best [rad]."""
+    arm = points[:, :2] - points[:, :2].mean(axis=0)
+    moved = displacement[:, :2] - displacement[:, :2].mean(axis=0)
+    return float(np.sum(arm[:, 0] * moved[:, 1] - arm[:, 1] * moved[:, 0]) / np.sum(arm**2))
+
+
+def added_torsion(mesh, factor):
+    """Displacement that `factor` more twist of the slabs gives, about the corner hit, so that contacts stay closed.
+    Between the slabs it varies linearly with height, from zero at the base."""
+    extra = np.zeros((mesh.n_points, 3))
+    structure, kind = mesh.cell_data["structure"], mesh.cell_data["kind"]
+    base = mesh.points[:, 2].min()
+    for s in np.unique(structure[kind == SLAB]):
+        slabs = pick(mesh, (structure == s) & (kind == SLAB))
+        floors = {}
+        for point, moved in zip(slabs.points, slabs["displacement"]):
+            floors.setdefault(round(float(point[2]), 3), []).append((point, moved))
+        heights = [base] + sorted(floors)
+        twists = [0.0] + [twist_of(*map(np.array, zip(*floors[z]))) for z in sorted(floors)]
+        center = struck_corner(mesh, s)
+        center = center if center is not None else slabs.points.mean(axis=0)
+        own = np.unique(np.concatenate([mesh.get_cell(int(c)).point_ids for c in np.flatnonzero(structure == s)]))
+        arm = mesh.points[own] - center
+        angle = factor * np.interp(mesh.points[own, 2], heights, twists)
+        extra[own, 0], extra[own, 1] = -angle * arm[:, 1], angle * arm[:, 0]
+    return extra
+
+
 def pick(mesh, mask):
     return mesh.extract_cells(np.flatnonzero(mask)) if mask.any() else None
 
@@ -115,10 +171,15 @@ def pick(mesh, mask):
 def colors_of(field, mesh):
     """Adds the array to show and returns its name and its label."""
     if field == "peak_strain_ratio":
-        return field, "largest strain /\nyield strain\n"
+        return field, "largest strain\nof a fiber /\nyield strain\n"
     values = np.linalg.norm(mesh[field], axis=1)
     mesh["shown"] = 1e3 * values if field == "displacement" else values
     return "shown", "displacement\n(mm)\n" if field == "displacement" else "velocity\n(m/s)\n"
+
+
+def text_size(plotter, points):
+    """Font size for this picture; `points` is right for one of 1000 pixels in height."""
+    return max(6, round(points * plotter.window_size[1] / 1000))
 
 
 def surface_of(mesh):
@@ -130,20 +191,30 @@ def add_structures(plotter, reference, deformed, field):
     kind = deformed.cell_data["kind"]
     highest = float(np.max(deformed[name], initial=0)) or 1.0
     style = dict(scalars=name, cmap="viridis", clim=(0, highest), show_scalar_bar=False)
+    plain = dict(color="#c8ccd0") if field == "peak_strain_ratio" else style  # of elastic members, slabs
+    measured = deformed.cell_data[name] > 0 if field == "peak_strain_ratio" else np.full(deformed.n_cells, True)
     shown = None
-    solids = pick(deformed, kind > SLAB)
-    if solids is not None:
-        shown = plotter.add_mesh(surface_of(solids), ambient=0.25, specular=0.1, line_width=4, **style)
+    for mask, look in (((kind > SLAB) & measured, style), ((kind > SLAB) & ~measured, plain)):
+        solids = pick(deformed, mask)
+        if solids is not None:
+            surface = surface_of(solids)
+            actor = plotter.add_mesh(surface, ambient=0.25, specular=0.1, line_width=3, **look)
+            shown = actor if look is style else shown
+            if look is not style and surface.n_lines:
+                lines = [cell for cell in range(surface.n_cells) if surface.get_cell(cell).dimension == 1]
+                plotter.add_mesh(surface.extract_cells(lines), color="#777777", line_width=3, lighting=False)
     slabs = pick(deformed, kind == SLAB)
     if slabs is not None:
-        shown = plotter.add_mesh(slabs, opacity=0.55, ambient=0.3, **style)
+        actor = plotter.add_mesh(slabs, opacity=0.55, ambient=0.3, **plain)
+        shown = actor if plain is style else shown
         plotter.add_mesh(surface_of(slabs).extract_feature_edges(20), color="#333333", line_width=2)
     rest = pick(reference, kind == SLAB)
     if rest is not None:
         plotter.add_mesh(surface_of(rest).extract_feature_edges(20), color="#999999", line_width=1)
     if shown is not None:
         plotter.add_scalar_bar(label, mapper=shown.mapper, vertical=True, position_x=0.89, position_y=0.22, height=0.5,
-                               width=0.05, title_font_size=22, label_font_size=20, color="black", fmt="%.3g",
+                               width=0.05, title_font_size=text_size(plotter, 25),
+                               label_font_size=text_size(plotter, 23), color="black", fmt="%.3g",
                                n_labels=5)
 
 
@@ -157,7 +228,7 @@ def add_contacts(plotter, deformed, size):
         impulse = contacts.cell_data["impulse"][cell]
         center = np.asarray(contacts.get_cell(int(cell)).points).mean(axis=0)
         plotter.add_mesh(pv.Sphere(radius=0.016 * size, center=center), color=MARK, ambient=0.4)
-        plotter.add_point_labels([center + [0, 0, 0.025 * size]], [f"{impulse:.0f} N s"], text_color=MARK, font_size=24,
+        plotter.add_point_labels([center + [0, 0, 0.025 * size]], [f"{impulse:.0f} N s"], text_color=MARK, font_size=text_size(plotter, 27),
                                  shape="rounded_rect", shape_color="white",
                                  shape_opacity=0.75, show_points=False, always_visible=True, bold=True)
     return int(hit.sum())
@@ -172,7 +243,7 @@ def add_axes(plotter, mesh):
     high = np.maximum(high, low + step)
     counts = np.rint((high - low) / step).astype(int) + 1
     plotter.show_bounds(bounds=np.column_stack([low, high]).ravel().tolist(), xtitle="x (m)", ytitle="y (m)",
-                        ztitle="z (m)", color="black", font_size=20, location="outer", ticks="outside", grid="back",
+                        ztitle="z (m)", color="black", font_size=text_size(plotter, 22), location="outer", ticks="outside", grid="back",
                         n_xlabels=int(counts[0]), n_ylabels=int(counts[1]), n_zlabels=int(counts[2]),
                         fmt="%g", use_3d_text=False)
 
@@ -190,6 +261,8 @@ def main():
         mesh.points = draw_apart(mesh, structure_offsets(mesh, scale))
     deformed = mesh.copy()
     deformed.points = mesh.points + scale * mesh["displacement"]
+    if arguments.torsion:
+        deformed.points += added_torsion(mesh, arguments.torsion - scale)
 
     pv.OFF_SCREEN = True
     plotter = pv.Plotter(off_screen=True, window_size=list(arguments.size), lighting="light kit")
@@ -199,17 +272,19 @@ def main():
 
     add_axes(plotter, mesh)
     title = arguments.title or summary.get("title") or "nsframe"
-    plotter.add_text(title, position=(0.03, 0.93), viewport=True, font_size=17, color="black")
+    plotter.add_text(title, position=(0.03, 0.945), viewport=True, font_size=text_size(plotter, 18), color="black")
     marks = f",  {hits} contact{'s' if hits != 1 else ''} hit (marked)" if hits else ""
     gaps = " and gaps" if scale_gaps else ""
-    plotter.add_text(f"t = {times[index]:.3f} s,  displacements{gaps} x {scale:g}{marks}", position=(0.03, 0.88),
-                     viewport=True, font_size=13, color="#333333")
+    torsion = f", torsion x {arguments.torsion:g}" if arguments.torsion else ""
+    plotter.add_text(f"t = {times[index]:.3f} s,  displacements{gaps} x {scale:g}{torsion}{marks}", position=(0.03, 0.905),
+                     viewport=True, font_size=text_size(plotter, 14), color="#333333")
     center = np.array(mesh.center)
     plotter.camera_position = [center + 3 * mesh.length * np.array(arguments.view), center, (0, 0, 1)]
     plotter.reset_camera()
-    plotter.camera.zoom(1.25)
+    plotter.camera.zoom(1.14)
+    plotter.camera.SetWindowCenter(0.06, 0.01)  # the title is above, the colour bar at the right
     plotter.enable_anti_aliasing("ssaa")
-    plotter.screenshot(str(arguments.output))
+    Image.fromarray(plotter.screenshot(return_img=True)).save(arguments.output, optimize=True)
     print(f"{arguments.output}: t = {times[index]:.3f} s, displacements x {scale:g}")
 
 

@@ -2,24 +2,13 @@
 #include <doctest/doctest.h>
 
 #include "integrators/simulation.hpp"
+#include "tests/verification/closed_forms.hpp"
 #include "tests/verification/pair_of_masses.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-double exact_height(double t) {
-  double start = 1, speed = 1, peak_time = 1;  // first impact at 1 s; it leaves with 1 m/s
-  if (t < start) return 1 - t * t;
-  while (t < 3 && t >= start + peak_time) {
-    start += peak_time;
-    speed *= 0.5;
-    peak_time *= 0.5;
-    if (speed < 1e-12) return 0;
-  }
-  return t >= 3 ? 0 : speed * (t - start) - (t - start) * (t - start);
-}
 
 double largest_error(double theta, double gamma, double dt) {
   ModelDescription d;
@@ -38,7 +27,7 @@ double largest_error(double theta, double gamma, double dt) {
   Recorder recorder;
   simulation.run({&recorder});
   double error = 0;
-  for (const State& state : recorder.states) error = std::max(error, std::abs(1 - state.displacement[0] - exact_height(state.time)));
+  for (const State& state : recorder.states) error = std::max(error, std::abs(1 - state.displacement[0] - bouncing_ball_height(state.time)));
   return error;
 }
 

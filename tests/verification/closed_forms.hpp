@@ -17,6 +17,19 @@ struct FreeOscillator {
   }
 };
 
+// Height of the bouncing ball: dropped from 1 m under 2 m/s2, e = 0.5; impacts at 1, 2, 2.5, ... s, at rest from 3 s.
+inline double bouncing_ball_height(double t) {
+  double start = 1, speed = 1, flight = 1;  // the first impact is at 1 s; the ball leaves with 1 m/s
+  if (t < start) return 1 - t * t;
+  while (t < 3 && t >= start + flight) {
+    start += flight;
+    speed *= 0.5;
+    flight *= 0.5;
+    if (speed < 1e-12) return 0;
+  }
+  return t >= 3 ? 0 : speed * (t - start) - (t - start) * (t - start);
+}
+
 struct ExactImpact {
   double time, rate;
   std::array<double, 2> x, v;  // both masses just after
