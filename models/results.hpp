@@ -72,6 +72,7 @@ struct ModeNumerics {
   double damping_asked = 0;            // [-]
   double damping_effective = 0;        // asked plus numerical [-]
   double frequency_effective = 0;      // [Hz]
+  double participation = 0;            // effective mass over mass, the largest of x, y and z [-]
 };
 
 struct Peak {
@@ -80,6 +81,15 @@ struct Peak {
   Vector3 velocity = Vector3::Zero();      // [m/s]
   Vector3 acceleration = Vector3::Zero();  // absolute acceleration, as velocity difference over dt [m/s2]
   double twist = 0;                        // largest |rz| [rad]
+  double level = 0;                        // z of the node [m]
+};
+
+// Of a story: largest relative displacement of its floors over its height, along x and y [-].
+struct StoryDrift {
+  std::string structure;
+  int story = 0;                // from 1, the lowest
+  double bottom = 0, top = 0;   // levels of its floors [m]
+  Vector2 drift = Vector2::Zero();
 };
 
 struct Timing {
@@ -97,6 +107,7 @@ struct Summary {
   std::vector<Impact> impacts;
   std::vector<Pounding> poundings;
   std::vector<Peak> peaks;
+  std::vector<StoryDrift> drifts;
   Energy energy;
   double worst_balance_error = 0;                 // over the run, relative to the largest energy [-]
   double max_penetration = 0;                     // [m]

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "app/commands.hpp"
@@ -8,13 +9,20 @@ namespace nsframe::app {
 
 namespace {
 
+// "1 node", "2 nodes".
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+std::string counted(int count, const char* what) { return counted(static_cast<std::size_t>(count), what); }
+
 void print_structure(const LoadedScene& loaded, Simulation& simulation, std::size_t index) {
   const Structure& structure = loaded.model.structures[index];
   const StructureModes& modes = simulation.modes()[index];
   Vector3 mass = Vector3::Zero();
   for (const int node : structure.nodes) mass += loaded.model.nodal_mass.segment<3>(6 * node);
-  fmt::print("structure '{}': {} nodes, {} free DOFs, mass {:.6g} kg\n", structure.name, structure.nodes.size(),
-             structure.last_dof - structure.first_dof, mass.maxCoeff());
+  fmt::print("structure '{}': {}, {}, mass {:.6g} kg\n", structure.name, counted(structure.nodes.size(), "node"),
+             counted(structure.last_dof - structure.first_dof, "free DOF"), mass.maxCoeff());
   for (int i = 0; i < std::min(6, modes.modes.size()); ++i) {
     const auto at = static_cast<std::size_t>(i);
     fmt::print("  mode {:<3} {:10.4f} Hz   damping {:6.3f} %   mass x {:5.1f} %  y {:5.1f} %  z {:5.1f} %\n", modes.names[at],
@@ -28,16 +36,16 @@ void print_contacts(const Contacts& contacts) {
   for (int i = 0; i < contacts.size(); ++i) {
     const ContactPair& pair = contacts.pairs[static_cast<std::size_t>(i)];
     fmt::print("  {:<32} gap {:8.4f} m   e = {:.3g}   normal ({:g}, {:g}, {:g}){}\n", pair.name, contacts.initial_gap[i],
-               contacts.restitution[i], pair.normal.x(), pair.normal.y(), pair.normal.z(),
+               contacts.restitution[i], pair.normal.x() + 0.0, pair.normal.y() + 0.0, pair.normal.z() + 0.0,  // no -0
                pair.rigid_bodies ? "" : "   at corner nodes of flexible slabs");
   }
 }
 
 void print_solution(const LoadedScene& loaded, Simulation& simulation) {
   const AnalysisOptions& analysis = loaded.scene.analysis;
-  fmt::print("scheme {}: theta = {:g}, gamma = {:g}, dt = {:g} s, {:g} s, {} steps\n", analysis.scheme, analysis.theta,
-             analysis.gamma, analysis.dt, simulation.duration(), std::lround(simulation.duration() / analysis.dt));
-  fmt::print("solved how: {}; contact by {}\n",
+  fmt::print("scheme {}: theta = {:g}, gamma = {:g}, dt = {:g} ms, {} steps to {:g} s\n", analysis.scheme, analysis.theta,
+             analysis.gamma, 1e3 * analysis.dt, std::lround(simulation.duration() / analysis.dt), simulation.duration());
+  fmt::print("solution: {}; contact by {}\n",
              simulation.system().linear() ? "linear, the iteration matrix is factored once"
                                           : "Newton-Raphson, the tangent is factored anew where it has changed too much",
              analysis.contact_solver == ContactSolverKind::active_set ? "an exact active-set method" : "projected Gauss-Seidel");
@@ -53,11 +61,14 @@ int check(const SceneArguments& arguments) {
   std::map<std::string, int> kinds;
   int elements = 0;
   for (const auto& group : model.groups) {
-    kinds[std::string(group->kind())] += group->size();
+    std::string kind(group->kind());
+    std::replace(kind.begin(), kind.end(), '_', ' ');
+    kinds[kind] += group->size();
     elements += group->size();
   }
-  fmt::print("{} nodes, {} elements, {} free DOFs, {} fibers\n", model.nodes.size(), elements, model.dofs.size(),
-             simulation.system().assembler.fibers());
+  const std::size_t fibers = static_cast<std::size_t>(simulation.system().assembler.fibers());
+  fmt::print("{}, {}, {}{}\n", counted(model.nodes.size(), "node"), counted(elements, "element"),
+             counted(model.dofs.size(), "free DOF"), fibers > 0 ? ", " + counted(fibers, "fiber") : "");
   for (const auto& [kind, count] : kinds) fmt::print("  {:<24} {}\n", kind, count);
   for (std::size_t i = 0; i < model.structures.size(); ++i) print_structure(loaded, simulation, i);
   print_contacts(model.contacts);

@@ -11,6 +11,12 @@ namespace nsframe::app {
 
 namespace {
 
+// A ratio that is only rounding is none.
+double damping_of(const StructureModes& modes, int mode) {
+  const double ratio = modes.damping_ratio[mode];
+  return std::abs(ratio) < 1e-9 ? 0.0 : ratio;
+}
+
 void print_table(const Model& model, const std::vector<StructureModes>& all) {
   fmt::print("{:<12} {:<5} {:>10} {:>10} {:>10} {:>8} {:>8} {:>8}\n", "structure", "mode", "f [Hz]", "T [s]", "damping %",
              "mass x %", "mass y %", "mass z %");
@@ -19,8 +25,8 @@ void print_table(const Model& model, const std::vector<StructureModes>& all) {
       const auto at = static_cast<std::size_t>(i);
       const double f = all[s].modes.circular_frequency[i] / (2 * pi);
       const Vector3 mass = 100 * all[s].participation[at];
-      fmt::print("{:<12} {:<5} {:>10.4f} {:>10.5f} {:>10.3f} {:>8.2f} {:>8.2f} {:>8.2f}\n", model.structures[s].name,
-                 all[s].names[at], f, 1 / f, 100 * all[s].damping_ratio[i], mass.x(), mass.y(), mass.z());
+      fmt::print("{:<12} {:<5} {:>10.4f} {:>10} {:>10.3f} {:>8.2f} {:>8.2f} {:>8.2f}\n", model.structures[s].name,
+                 all[s].names[at], f, f > 0 ? fmt::format("{:.5f}", 1 / f) : "-", 100 * damping_of(all[s], i), mass.x(), mass.y(), mass.z());
     }
   }
 }
@@ -34,7 +40,7 @@ void print_json(const Model& model, const std::vector<StructureModes>& all) {
       list.push_back({{"structure", model.structures[s].name},
                       {"mode", all[s].names[at]},
                       {"frequency", all[s].modes.circular_frequency[i] / (2 * pi)},
-                      {"damping_ratio", all[s].damping_ratio[i]},
+                      {"damping_ratio", damping_of(all[s], i)},
                       {"participation", {mass.x(), mass.y(), mass.z()}}});
     }
   }

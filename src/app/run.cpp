@@ -3,6 +3,7 @@
 #include "app/commands.hpp"
 #include "app/progress.hpp"
 #include "base/timer.hpp"
+#include "output/drifts.hpp"
 #include "output/history_file.hpp"
 #include "output/peaks.hpp"
 #include "output/poundings.hpp"
@@ -26,12 +27,23 @@ std::vector<std::string> contact_warnings(const Model& model, const Summary& sum
       least = std::min(least, pounding.effective_restitution);
       most = std::max(most, pounding.effective_restitution);
     }
+    const std::string came_out = most - least < 0.005 ? fmt::format("as {:.2f}", least)
+                                                      : fmt::format("between {:.2f} and {:.2f}", least, most);
     warnings.push_back(fmt::format("the restitution acts on corner nodes of flexible slabs, each with its share of the mass: "
-                                   "the poundings' own restitution came out between {:.2f} and {:.2f}; rigid slabs would have "
-                                   "that of the scene",
-                                   least, most));
+                                   "that of the poundings came out {}; rigid slabs would have that of the scene",
+                                   came_out));
   }
   return warnings;
+}
+
+// Largest effective mass of each mode, in the order of summary.modes.
+void add_participation(const std::vector<StructureModes>& structures, Summary& summary) {
+  std::size_t mode = 0;
+  for (const StructureModes& modes : structures) {
+    for (const Vector3& share : modes.participation) {
+      if (mode < summary.modes.size()) summary.modes[mode++].participation = share.maxCoeff();
+    }
+  }
 }
 
 void print_files(const std::filesystem::path& folder, bool frames) {
@@ -55,9 +67,10 @@ int run(const SceneArguments& arguments) {
   write_text(folder / "scene.toml", complete);
 
   PeakTracker peaks(loaded.scene.output.nodes);
+  DriftTracker drifts;
   HistoryFile history(folder / "results.h5", loaded.scene.output, complete);
   ProgressBar progress(simulation.duration(), arguments.quiet);
-  std::vector<Observer*> observers{&peaks, &history, &progress};
+  std::vector<Observer*> observers{&peaks, &drifts, &history, &progress};
   const bool wants_frames = loaded.scene.output.frames > 0;
 #ifdef NSFRAME_HAS_VTK
   VtkFrames frames(folder, loaded.scene.output);
@@ -70,6 +83,8 @@ int run(const SceneArguments& arguments) {
   summary.timing.setup = setup;
   summary.poundings = merge_impacts(summary.impacts);
   summary.peaks = peaks.peaks();
+  summary.drifts = drifts.drifts();
+  add_participation(simulation.modes(), summary);
   summary.warnings = numerical_warnings(summary);
   for (std::string& warning : contact_warnings(loaded.model, summary)) summary.warnings.push_back(std::move(warning));
   write_summary(summary, folder / "summary.json");

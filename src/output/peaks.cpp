@@ -14,7 +14,11 @@ void PeakTracker::start(const Model& model, const State& state) {
   model_ = &model;
   const auto nodes = find_nodes(model.nodes, names_);
   names_.clear();
-  for (const int node : nodes) names_.push_back(model.nodes.id[static_cast<std::size_t>(node)]);
+  level_.clear();
+  for (const int node : nodes) {
+    names_.push_back(model.nodes.id[static_cast<std::size_t>(node)]);
+    level_.push_back(model.nodes.position[static_cast<std::size_t>(node)].z());
+  }
   moving_ = TransformationRows(model.dofs, full_dofs(nodes, {0, 1, 2, 5}));
   displacement_.assign(4 * nodes.size(), 0.0);
   velocity_.assign(3 * nodes.size(), 0.0);
@@ -61,6 +65,7 @@ std::vector<Peak> PeakTracker::peaks() const {
       peaks[i].acceleration[component] = peak_acceleration_[3 * i + k];
     }
     peaks[i].twist = displacement_[4 * i + 3];
+    peaks[i].level = level_[i];
   }
   return peaks;
 }

@@ -28,6 +28,7 @@ class PeakTracker : public Observer {
   TransformationRows moving_;  // ux, uy, uz, rz of each node
   Vector3 ground_velocity_ = Vector3::Zero();
   VectorX acceleration_;                   // free DOFs, relative to the base [m/s2]
+  std::vector<double> level_;              // z of each node [m]
   std::vector<double> displacement_;       // 4 a node
   std::vector<double> velocity_;           // 3 a node
   std::vector<double> peak_acceleration_;  // 3 a node

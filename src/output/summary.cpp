@@ -13,6 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double undamped = 1e-9;  // damping ratios below are rounding
+
 Json to_json(const Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
 std::string pair_name(const Summary& summary, int pair) {
@@ -59,6 +61,18 @@ Json peaks_json(const Summary& summary) {
   return list;
 }
 
+Json drifts_json(const Summary& summary) {
+  Json list = Json::array();
+  for (const auto& drift : summary.drifts) {
+    list.push_back({{"structure", drift.structure},
+                    {"story", drift.story},
+                    {"bottom", drift.bottom},
+                    {"top", drift.top},
+                    {"drift", {drift.drift.x(), drift.drift.y()}}});
+  }
+  return list;
+}
+
 Json energy_json(const Summary& summary) {
   const Energy& energy = summary.energy;
   return {{"kinetic", energy.kinetic},
@@ -78,7 +92,7 @@ Json modes_json(const Summary& summary) {
     list.push_back({{"structure", mode.structure},
                     {"mode", mode.mode},
                     {"frequency", mode.frequency},
-                    {"asked", mode.damping_asked},
+                    {"asked", mode.damping_asked > undamped ? mode.damping_asked : 0.0},
                     {"effective", mode.damping_effective},
                     {"added", mode.damping_effective - mode.damping_asked},
                     {"effective_frequency", mode.frequency_effective}});
@@ -105,27 +119,48 @@ double excess(const ModeNumerics& mode) {
   return (mode.damping_effective - mode.damping_asked) / std::max(mode.damping_asked, 1e-3);
 }
 
-// Modes whose damping the scene sets (others have a ratio of rounding size); all of them when it sets none.
-std::vector<ModeNumerics> modes_that_matter(const Summary& summary) {
-  std::vector<ModeNumerics> modes;
-  std::copy_if(summary.modes.begin(), summary.modes.end(), std::back_inserter(modes),
-               [](const auto& mode) { return mode.damping_asked > 1e-9; });
-  return modes.empty() ? summary.modes : modes;
+std::string added_to(const ModeNumerics& mode) {
+  return fmt::format("{} to {} ({} asked)", percent(mode.damping_effective - mode.damping_asked), mode_of(mode),
+                     mode.damping_asked > undamped ? percent(mode.damping_asked) : "none");
+}
+
+constexpr double main_share = 0.3;  // of the mass, in a mode that carries a structure's response
+
+// Of the modes that are damped too much: the lowest main mode of each of the first two structures, and the one that is
+// furthest from what is asked for.
+std::vector<const ModeNumerics*> modes_to_name(const std::vector<const ModeNumerics*>& damped) {
+  std::vector<const ModeNumerics*> named;
+  for (const ModeNumerics* mode : damped) {
+    const auto same = std::find_if(named.begin(), named.end(),
+                                   [&](const auto* other) { return other->structure == mode->structure; });
+    if (same == named.end()) {
+      if (named.size() < 2) named.push_back(mode);
+    } else if ((*same)->participation < main_share && mode->participation > (*same)->participation) {
+      *same = mode;
+    }
+  }
+  const auto* worst = *std::max_element(damped.begin(), damped.end(),
+                                        [](const auto* a, const auto* b) { return excess(*a) < excess(*b); });
+  if (std::find(named.begin(), named.end(), worst) == named.end()) named.push_back(worst);
+  return named;
 }
 
 void warn_of_damping(const Summary& summary, const std::vector<ModeNumerics>& modes,
                      std::vector<std::string>& warnings) {
-  const auto others = std::count_if(modes.begin(), modes.end(), damped_too_much) - 1;
-  if (others < 0) return;
-  const auto worst = std::max_element(modes.begin(), modes.end(), [](const auto& a, const auto& b) {
-    return (damped_too_much(a) ? excess(a) : -1) < (damped_too_much(b) ? excess(b) : -1);
-  });
-  const std::string more =
-      others == 0 ? "" : fmt::format(", and too much to {} other mode{}", others, others == 1 ? "" : "s");
-  warnings.push_back(fmt::format(
-      "theta = {:g} at dt = {:g} ms adds {} damping to mode {}, which asks for {}{}: {}", summary.theta,
-      1e3 * summary.dt, percent(worst->damping_effective - worst->damping_asked), mode_of(*worst),
-      percent(worst->damping_asked), more, summary.pairs.empty() ? "peaks come out too low" : "impacts may be missed"));
+  std::vector<const ModeNumerics*> damped;
+  for (const ModeNumerics& mode : modes) {
+    if (damped_too_much(mode)) damped.push_back(&mode);
+  }
+  if (damped.empty()) return;
+  const auto named = modes_to_name(damped);
+  std::string list;
+  for (const ModeNumerics* mode : named) list += (list.empty() ? "" : ", ") + added_to(*mode);
+  const auto others = damped.size() - named.size();
+  if (others > 0) list += fmt::format(", and too much to {} other mode{}", others, others == 1 ? "" : "s");
+  warnings.push_back(fmt::format("theta = {:g} at dt = {:g} ms adds damping of its own: {}: {}{}", summary.theta,
+                                 1e3 * summary.dt, list,
+                                 summary.pairs.empty() ? "peaks come out too low" : "impacts may be missed",
+                                 summary.theta > 0.5 ? "; theta = 0.5 adds none" : ""));
 }
 
 void warn_of_shift(const Summary& summary, const std::vector<ModeNumerics>& modes, std::vector<std::string>& warnings) {
@@ -141,6 +176,14 @@ void warn_of_shift(const Summary& summary, const std::vector<ModeNumerics>& mode
 }
 
 }  // namespace
+
+std::vector<ModeNumerics> modes_that_matter(const Summary& summary) {
+  std::vector<ModeNumerics> modes;
+  std::copy_if(summary.modes.begin(), summary.modes.end(), std::back_inserter(modes), [](const auto& mode) {
+    return mode.damping_asked > undamped || (mode.participation > 0.05 && mode.frequency < 30);
+  });
+  return modes.empty() ? summary.modes : modes;
+}
 
 std::vector<std::string> numerical_warnings(const Summary& summary) {
   std::vector<std::string> warnings;
@@ -184,6 +227,7 @@ std::string summary_json(const Summary& summary) {
       {"impacts", impacts_json(summary)},
       {"poundings", poundings_json(summary)},
       {"peaks", peaks_json(summary)},
+      {"drifts", drifts_json(summary)},
       {"energy", energy_json(summary)},
       {"max_penetration", summary.max_penetration},
       {"max_complementarity_error", summary.max_complementarity_error},

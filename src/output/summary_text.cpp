@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
+#include <utility>
 
 #include "output/summary.hpp"
 
@@ -52,6 +54,16 @@ void paragraph(Buffer& out, const std::string& text, std::size_t indent) {
   line(out, "{}", current);
 }
 
+// "1 impact", "2 impacts".
+std::string counted(std::size_t count, const std::string& what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+// 0 in place of what is only rounding beside `scale`; also of -0.
+double rounded_off(double value, double scale) { return std::abs(value) <= scale ? 0.0 : value; }
+
+std::string structure_of(const std::string& node) { return node.substr(0, node.rfind('.')); }
+
 std::string pair_name(const Summary& summary, int pair) {
   const auto i = static_cast<std::size_t>(pair);
   return pair >= 0 && i < summary.pairs.size() ? summary.pairs[i] : fmt::format("pair {}", pair);
@@ -59,8 +71,10 @@ std::string pair_name(const Summary& summary, int pair) {
 
 void put_head(Buffer& out, const Summary& summary) {
   if (!summary.title.empty()) line(out, "{}", shortened(summary.title, columns));
-  line(out, "{}, dt {:g} ms, {} steps to {:g} s, {} free DOFs, {} elements, {} fibers", summary.scheme,
-       1e3 * summary.dt, summary.steps, summary.end_time, summary.dofs, summary.elements, summary.fibers);
+  const auto count = [](int number, const char* what) { return counted(static_cast<std::size_t>(number), what); };
+  line(out, "{}, dt {:g} ms, {} to {:g} s, {}, {}{}", summary.scheme, 1e3 * summary.dt, count(summary.steps, "step"),
+       summary.end_time, count(summary.dofs, "free DOF"), count(summary.elements, "element"),
+       summary.fibers > 0 ? ", " + count(summary.fibers, "fiber") : "");
   if (!summary.completed) {
     line(out, "STOPPED at {:g} s of {:g} s:", summary.end_time, summary.duration);
     paragraph(out, summary.stop_reason, 4);
@@ -73,8 +87,8 @@ void put_poundings(Buffer& out, const Summary& summary) {
     line(out, "\nPoundings: none");
     return;
   }
-  line(out, "\nPoundings: {} of {} impacts (impacts of one pair closer than 20 ms count as one)",
-       summary.poundings.size(), summary.impacts.size());
+  line(out, "\nPoundings: {} in {} (impacts of one pair closer than 20 ms are one pounding)", summary.poundings.size(),
+       counted(summary.impacts.size(), "impact"));
   line(out, "  {:>9}  {:<38} {:>9}  {:>10}  {:>8}  {:>9}", "time", "pair", "approach", "impulse", "duration",
        "effective");
   line(out, "  {:>9}  {:<38} {:>9}  {:>10}  {:>8}  {:>9}", "s", "", "m/s", "N s", "ms", "e");
@@ -82,19 +96,36 @@ void put_poundings(Buffer& out, const Summary& summary) {
     const Pounding& p = summary.poundings[i];
     line(out, "  {:>9.4f}  {:<38} {:>9.4f}  {:>10.5g}  {:>8.1f}  {:>9.3f}", p.time,
          shortened(pair_name(summary, p.pair), 38), p.approach_velocity, p.impulse, 1e3 * p.duration,
-         p.effective_restitution);
+         rounded_off(p.effective_restitution, 5e-4));
   }
   if (summary.poundings.size() > most_rows) line(out, "  ... and {} more", summary.poundings.size() - most_rows);
 }
 
-double largest(const Peak& peak) { return peak.displacement.norm(); }
+// One row a level of each structure: its node that moves most. Structures in their order, the roof first; what stands
+// still is left out.
+std::vector<Peak> peaks_to_show(const Summary& summary) {
+  std::vector<std::string> structures;
+  std::map<std::pair<std::size_t, long>, Peak> best;  // by structure and level from the top
+  for (const Peak& peak : summary.peaks) {
+    if (peak.displacement.norm() == 0) continue;
+    const std::string name = structure_of(peak.node);
+    const auto found = std::find(structures.begin(), structures.end(), name);
+    const auto structure = static_cast<std::size_t>(found - structures.begin());
+    if (found == structures.end()) structures.push_back(name);
+    const auto [at, first] = best.try_emplace({structure, -std::lround(1e3 * peak.level)}, peak);
+    if (!first && peak.displacement.norm() > at->second.displacement.norm()) at->second = peak;
+  }
+  std::vector<Peak> shown;
+  for (const auto& [key, peak] : best) shown.push_back(peak);
+  return shown;
+}
 
 void put_peaks(Buffer& out, const Summary& summary) {
-  if (summary.peaks.empty()) return;
-  std::vector<Peak> peaks = summary.peaks;
-  std::stable_sort(peaks.begin(), peaks.end(), [](const Peak& a, const Peak& b) { return largest(a) > largest(b); });
+  const std::vector<Peak> peaks = peaks_to_show(summary);
+  if (peaks.empty()) return;
   const std::size_t rows = std::min<std::size_t>(peaks.size(), 12);
-  line(out, "\nPeaks (largest absolute values; displacement and velocity relative to the base)");
+  line(out, "\nPeaks of the node that moves most on each level (displacement and velocity relative to the base;");
+  line(out, "acceleration absolute, over one step: at an impact it grows as the step shrinks)");
   line(out, "  {:<24} {:>24}  {:>10}  {:>24}  {:>8}", "node", "displacement x y z, mm", "twist, rad",
        "acceleration x y z, m/s2", "v, m/s");
   for (std::size_t i = 0; i < rows; ++i) {
@@ -103,7 +134,20 @@ void put_peaks(Buffer& out, const Summary& summary) {
     line(out, "  {:<24} {:>8.2f}{:>8.2f}{:>8.2f}  {:>10.5f}  {:>8.2f}{:>8.2f}{:>8.2f}  {:>8.3f}", shortened(p.node, 24),
          d.x(), d.y(), d.z(), p.twist, a.x(), a.y(), a.z(), p.velocity.maxCoeff());
   }
-  if (peaks.size() > rows) line(out, "  ... and {} more nodes with less displacement", peaks.size() - rows);
+  if (peaks.size() > rows) line(out, "  ... and {} more levels", peaks.size() - rows);
+}
+
+void put_drifts(Buffer& out, const Summary& summary) {
+  if (summary.drifts.empty()) return;
+  line(out, "\nPeak drifts of the stories (relative displacement of the floors over the height)");
+  line(out, "  {:<24} {:>5}  {:>15}  {:>9}  {:>9}", "structure", "story", "from, to z, m", "x, %", "y, %");
+  const std::size_t rows = std::min(most_rows, summary.drifts.size());
+  for (std::size_t i = 0; i < rows; ++i) {
+    const StoryDrift& d = summary.drifts[i];
+    line(out, "  {:<24} {:>5}  {:>7.2f} {:>7.2f}  {:>9.3f}  {:>9.3f}", shortened(d.structure, 24), d.story, d.bottom,
+         d.top, 100 * d.drift.x(), 100 * d.drift.y());
+  }
+  if (summary.drifts.size() > rows) line(out, "  ... and {} more", summary.drifts.size() - rows);
 }
 
 void put_energy(Buffer& out, const Summary& summary) {
@@ -111,23 +155,34 @@ void put_energy(Buffer& out, const Summary& summary) {
   line(out, "\nEnergy at the end, J");
   line(out, "  {:>11} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11} {:>11}", "input", "initial", "kinetic", "strain",
        "damping", "contact", "numerical", "error");
-  line(out, "  {:>11.4g} {:>11.4g} {:>11.4g} {:>11.4g} {:>11.4g} {:>11.4g} {:>11.4g} {:>11.1e}", e.input, e.initial,
-       e.kinetic, e.strain, e.damping, e.contact, e.numerical, e.balance_error());
+  double most = 0;
+  for (const double part : {e.input, e.initial, e.kinetic, e.strain, e.damping, e.contact, e.numerical}) {
+    most = std::max(most, std::abs(part));
+  }
+  const auto tidy = [most](double part) { return rounded_off(part, 1e-12 * most); };
+  line(out, "  {:>11.4g} {:>11.4g} {:>11.4g} {:>11.4g} {:>11.4g} {:>11.4g} {:>11.4g} {:>11.1e}", tidy(e.input),
+       tidy(e.initial), tidy(e.kinetic), tidy(e.strain), tidy(e.damping), tidy(e.contact), tidy(e.numerical),
+       e.balance_error());
   line(out, "  largest balance error of the run: {:.1e} of the largest energy", summary.worst_balance_error);
 }
 
 void put_modes(Buffer& out, const Summary& summary) {
-  if (summary.modes.empty()) return;
+  std::vector<ModeNumerics> modes = modes_that_matter(summary);
+  std::erase_if(modes, [](const auto& mode) { return mode.frequency <= 0; });
+  if (modes.empty()) return;
   line(out, "\nDamping of the modes, as the scene asks for and as scheme and step make it");
   line(out, "  {:<26} {:<6} {:>12} {:>14} {:>9} {:>9} {:>10}", "structure", "mode", "frequency, Hz", "effective, Hz",
        "asked, %", "added, %", "in all, %");
-  for (std::size_t i = 0; i < std::min(most_rows, summary.modes.size()); ++i) {
-    const ModeNumerics& m = summary.modes[i];
+  const std::size_t rows = std::min(most_rows, modes.size());
+  for (std::size_t i = 0; i < rows; ++i) {
+    const ModeNumerics& m = modes[i];
     line(out, "  {:<26} {:<6} {:>13.4g} {:>14.4g} {:>9.3f} {:>9.3f} {:>10.3f}", shortened(m.structure, 26),
-         shortened(m.mode, 6), m.frequency, m.frequency_effective, 100 * m.damping_asked,
-         100 * (m.damping_effective - m.damping_asked), 100 * m.damping_effective);
+         shortened(m.mode, 6), m.frequency, m.frequency_effective, rounded_off(100 * m.damping_asked, 5e-4),
+         rounded_off(100 * (m.damping_effective - m.damping_asked), 5e-4), rounded_off(100 * m.damping_effective, 5e-4));
   }
-  if (summary.modes.size() > most_rows) line(out, "  ... and {} more", summary.modes.size() - most_rows);
+  if (summary.modes.size() > rows) {
+    line(out, "  ... and {} of less mass or without damping of the scene", counted(summary.modes.size() - rows, "mode"));
+  }
 }
 
 void put_solution(Buffer& out, const Summary& summary) {
@@ -151,6 +206,7 @@ std::string summary_text(const Summary& summary) {
   put_head(out, summary);
   put_poundings(out, summary);
   put_peaks(out, summary);
+  put_drifts(out, summary);
   put_modes(out, summary);
   put_energy(out, summary);
   put_solution(out, summary);

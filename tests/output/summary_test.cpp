@@ -86,7 +86,7 @@ TEST_CASE("the summary file has every key of the contract and the numbers of the
   write_summary(summary, folder / "summary.json");
   const auto json = nlohmann::json::parse(content(folder / "summary.json"));
   for (const char* key :
-       {"scheme", "dt", "steps", "dofs", "frequencies", "impacts", "poundings", "peaks", "energy", "numerical_damping",
+       {"scheme", "dt", "steps", "dofs", "frequencies", "impacts", "poundings", "peaks", "drifts", "energy", "numerical_damping",
         "max_penetration", "newton_iterations", "timing", "warnings", "completed", "stop_reason", "title"}) {
     CHECK_MESSAGE(json.contains(key), key);
   }
@@ -113,8 +113,62 @@ TEST_CASE("the scheme's own damping is named where it drowns what the scene asks
   const auto warnings = numerical_warnings(sample_summary());
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0] ==
-        "theta = 1 at dt = 1 ms adds 2.1 % damping to mode L2 of 'right', which asks for 0.2 %, and too "
-        "much to 1 other mode: impacts may be missed");
+        "theta = 1 at dt = 1 ms adds damping of its own: 1.1 % to L1 of 'right' (0.6 % asked), 2.1 % to L2 of 'right' "
+        "(0.2 % asked): impacts may be missed; theta = 0.5 adds none");
+}
+
+TEST_CASE("warnings and table name the modes that matter: damped by the scene, or with mass below 30 Hz") {
+  Summary summary = sample_summary();
+  summary.modes.push_back({"left", "L1", 2.1, 1e-30, 0.0066, 2.1, 0.9});   // no damping asked, most of the mass
+  summary.modes.push_back({"left", "T1", 6.1, 1e-30, 0.019, 6.1, 0.95});   // more mass, but not the lowest main mode
+  summary.modes.push_back({"left", "R1", 8.6, 1e-30, 0.027, 8.6, 0.001});  // hardly any mass
+  summary.modes.push_back({"left", "V1", 39, 1e-30, 0.12, 39, 0.95});      // too fast to matter
+  CHECK(modes_that_matter(summary).size() == 4);
+  const auto warnings = numerical_warnings(summary);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0] ==
+        "theta = 1 at dt = 1 ms adds damping of its own: 1.1 % to L1 of 'right' (0.6 % asked), 0.7 % to L1 of 'left' (none "
+        "asked), 1.9 % to T1 of 'left' (none asked), and too much to 1 other mode: impacts may be missed; theta = 0.5 adds none");
+  const std::string text = summary_text(summary);
+  CHECK(text.find("V1") == std::string::npos);
+  CHECK(text.find("... and 2 modes of less mass or without damping of the scene") != std::string::npos);
+  CHECK(nlohmann::json::parse(summary_json(summary))["numerical_damping"][2]["asked"] == 0.0);
+}
+
+TEST_CASE("the table of peaks has one row a level, the roof first, and leaves out what stands still") {
+  Summary summary = sample_summary();
+  summary.peaks.clear();
+  const auto add = [&](const char* node, double level, double x) {
+    Peak peak;
+    peak.node = node;
+    peak.level = level;
+    peak.displacement.x() = x;
+    summary.peaks.push_back(peak);
+  };
+  add("left.1", 0, 0);
+  add("left.11", 2.5, 0.03);
+  add("left.21", 5, 0.05);
+  add("left.22", 5, 0.06);
+  add("right.11", 2.5, 0.07);
+  const std::string text = summary_text(summary);
+  const auto roof = text.find("left.22 "), floor = text.find("left.11 "), other = text.find("right.11 ");
+  CHECK(roof < floor);
+  CHECK(floor < other);
+  CHECK(other != std::string::npos);
+  CHECK(text.find("left.21 ") == std::string::npos);
+  CHECK(text.find("left.1 ") == std::string::npos);
+  CHECK(nlohmann::json::parse(summary_json(summary))["peaks"].size() == 5);
+}
+
+TEST_CASE("drifts are in the summary file as ratios and in the table in percent") {
+  Summary summary = sample_summary();
+  summary.drifts = {{"left", 1, 0, 2.5, Vector2(0.0123, 0.0004)}, {"left", 2, 2.5, 5, Vector2(0.02, 0.001)}};
+  const auto json = nlohmann::json::parse(summary_json(summary));
+  REQUIRE(json["drifts"].size() == 2);
+  CHECK(json["drifts"][0]["structure"] == "left");
+  CHECK(json["drifts"][1]["story"] == 2);
+  CHECK(json["drifts"][0]["drift"][0] == 0.0123);
+  CHECK(summary_text(summary).find("1.230") != std::string::npos);
 }
 
 TEST_CASE("a scheme that adds no damping and no shift gives no warning") {

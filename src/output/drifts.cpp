@@ -1,0 +1,95 @@
+#include "output/drifts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace nsframe {
+namespace {
+
+long millimetres(double level) { return std::lround(1e3 * level); }
+
+double level_of(const Model& model, int node) { return model.nodes.position[static_cast<std::size_t>(node)].z(); }
+
+bool carries_mass(const Model& model, int node) { return model.nodal_mass.segment<2>(6 * node).maxCoeff() > 0; }
+
+}  // namespace
+
+std::vector<DriftTracker::Floor> DriftTracker::floors_of(const Model& model, int structure) {
+  std::map<long, Floor> by_level;
+  const auto add = [&](double level, const std::vector<int>& nodes) {
+    Floor& floor = by_level[millimetres(level)];
+    floor.level = level;
+    floor.nodes.insert(floor.nodes.end(), nodes.begin(), nodes.end());
+  };
+  for (const Slab& slab : model.slabs) {
+    if (slab.structure != structure || slab.corners.empty()) continue;
+    const std::vector<int> nodes = slab.center >= 0 ? std::vector<int>{slab.center} : slab.corners;
+    add(level_of(model, nodes.front()), nodes);
+  }
+  const std::vector<int>& nodes = model.structures[static_cast<std::size_t>(structure)].nodes;
+  if (by_level.empty()) {
+    for (const int node : nodes) {
+      if (carries_mass(model, node)) add(level_of(model, node), {node});
+    }
+  }
+  if (by_level.empty()) return {};
+  double base = by_level.begin()->second.level;
+  for (const int node : nodes) base = std::min(base, level_of(model, node));
+  if (millimetres(base) < by_level.begin()->first) {
+    for (const int node : nodes) {
+      if (millimetres(level_of(model, node)) == millimetres(base)) add(base, {node});
+    }
+  }
+  std::vector<Floor> floors;
+  for (auto& [level, floor] : by_level) floors.push_back(std::move(floor));
+  return floors;
+}
+
+void DriftTracker::start(const Model& model, const State& state) {
+  drifts_.clear();
+  stories_.clear();
+  std::vector<int> tracked;
+  for (int s = 0; s < static_cast<int>(model.structures.size()); ++s) {
+    const std::vector<Floor> floors = floors_of(model, s);
+    std::vector<int> first_row;
+    for (const Floor& floor : floors) {
+      first_row.push_back(2 * static_cast<int>(tracked.size()));
+      tracked.insert(tracked.end(), floor.nodes.begin(), floor.nodes.end());
+    }
+    for (std::size_t i = 1; i < floors.size(); ++i) {
+      StoryDrift drift;
+      drift.structure = model.structures[static_cast<std::size_t>(s)].name;
+      drift.story = static_cast<int>(i);
+      drift.bottom = floors[i - 1].level;
+      drift.top = floors[i].level;
+      drifts_.push_back(std::move(drift));
+      stories_.push_back({first_row[i - 1], static_cast<int>(floors[i - 1].nodes.size()), first_row[i],
+                          static_cast<int>(floors[i].nodes.size()), floors[i].level - floors[i - 1].level});
+    }
+  }
+  rows_ = TransformationRows(model.dofs, full_dofs(tracked, {0, 1}));
+  raise(state);
+}
+
+double DriftTracker::mean(int first_row, int nodes, const VectorX& q) const {
+  double sum = 0;
+  for (int i = 0; i < nodes; ++i) sum += rows_.value(first_row + 2 * i, q.data());
+  return sum / nodes;
+}
+
+void DriftTracker::raise(const State& state) {
+  const VectorX& q = state.displacement;
+  for (std::size_t i = 0; i < stories_.size(); ++i) {
+    const Story& story = stories_[i];
+    for (int k = 0; k < 2; ++k) {
+      const double relative =
+          mean(story.upper_row + k, story.upper_nodes, q) - mean(story.lower_row + k, story.lower_nodes, q);
+      drifts_[i].drift[k] = std::max(drifts_[i].drift[k], std::abs(relative) / story.height);
+    }
+  }
+}
+
+void DriftTracker::step(const State&, const State& after, const StepReport&, const Energy&) { raise(after); }
+
+}  // namespace nsframe

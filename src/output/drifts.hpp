@@ -1,0 +1,43 @@
+// Largest story drifts over a time history: relative displacement of two floors over the height between them.
+//
+// Floors of a connected structure are the levels of its slabs (centre node, or the mean of the corners); without slabs,
+// the levels of nodes that carry horizontal mass (their mean). The base is the lowest level of its nodes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "models/results.hpp"
+#include "output/node_rows.hpp"
+
+namespace nsframe {
+
+class DriftTracker : public Observer {
+ public:
+  void start(const Model& model, const State& state) override;
+  void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
+
+  // Structure by structure, from the lowest story; none for a structure without height.
+  const std::vector<StoryDrift>& drifts() const { return drifts_; }
+
+ private:
+  struct Floor {
+    double level = 0;  // [m]
+    std::vector<int> nodes;
+  };
+
+  static std::vector<Floor> floors_of(const Model& model, int structure);
+  void raise(const State& state);
+  double mean(int first_row, int nodes, const VectorX& q) const;
+
+  struct Story {
+    int lower_row = 0, lower_nodes = 0, upper_row = 0, upper_nodes = 0;  // x and y rows of each node follow each other
+    double height = 0;                                                   // [m]
+  };
+
+  std::vector<StoryDrift> drifts_;
+  std::vector<Story> stories_;  // of each of drifts_
+  TransformationRows rows_;
+};
+
+}  // namespace nsframe
