@@ -29,11 +29,16 @@ def nsframe_row(nsframe, columns, reference, setting, duration):
     theta, gamma, dt, runs = setting
     progress("%s: nsframe, theta = %g, gamma = %g, dt = %g s" % (columns, theta, gamma, dt))
     window = reference[1][-1]
+    # Wall time of the step loop, or CPU time of the process less that of a run of one step (it includes the peaks and the
+    # writing of histories): where other programs take the cores, the second is the closer one.
     times = []
+    _, setup, _, _ = run_nsframe(nsframe, columns, dt, dt, theta, gamma)
     for run in range(runs):
         summary, usage, time, roof = run_nsframe(nsframe, columns, dt, duration, theta, gamma,
                                                  history=references.INTERVAL if run == 0 else 0)
-        times.append(step_microseconds(summary))
+        cpu = 1e6 * (usage["cpu_s"] - setup["cpu_s"]) / max(1, summary["steps"] - 1)
+        wall = step_microseconds(summary)
+        times.append(min(wall, cpu) if summary["steps"] >= 5000 else wall)
         if run == 0:
             error = compare(reference, time, roof, min(window, duration))
     peaks = {peak["node"]: abs(peak["displacement"][0]) for peak in summary["peaks"]}
