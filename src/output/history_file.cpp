@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <optional>
 
@@ -163,6 +164,8 @@ void HistoryFile::Writer::save(Snapshot& snapshot) {
   snapshot.put("history.rows", static_cast<double>(time_->rows()));
   snapshot.put("history.next_sample", clock_.next());
   snapshot.put("history.impulse", impulse_);
+  const Energy& e = energy_;
+  snapshot.put("history.energy", std::vector<double>{e.kinetic, e.strain, e.damping, e.contact, e.numerical, e.input, e.initial});
   nsframe::save("history.impacts", impacts_, snapshot);
 }
 
@@ -171,6 +174,9 @@ void HistoryFile::Writer::resume(const Model& model, const State& state, const S
   const auto rows = static_cast<hsize_t>(snapshot.number("history.rows"));
   clock_.resume(snapshot.number("history.next_sample"));
   snapshot.read("history.impulse", impulse_);
+  std::array<double, 7> e{};
+  snapshot.read("history.energy", e);
+  energy_ = {e[0], e[1], e[2], e[3], e[4], e[5], e[6]};
   impacts_ = restore_impacts("history.impacts", snapshot);
   time_->truncate(rows);
   for (auto& part : parts_) part->truncate(rows);

@@ -194,6 +194,8 @@ class VtkFrames::Writer {
 
 void VtkFrames::Writer::build_grid() {
   grid_->SetPoints(make_points(geometry_));
+  // The first file would lack the range that VTK keeps for the next ones.
+  grid_->GetPoints()->GetData()->GetRange(-1);
   set_cells(geometry_, grid_);
   vtkPointData* points = grid_->GetPointData();
   attach<vtkDoubleArray>(points, "displacement", fields_.displacement, 3);
