@@ -37,7 +37,9 @@ def make(nsframe, columns, step):
 
 
 def read(columns):
-    """Head (a dict), times and roof corners' histories."""
+    """Head (a dict), times and roof corners' histories; of no length where the file is missing."""
+    if not os.path.exists(path_of(columns)):
+        return dict(SCHEME, dt=STEP[columns], own_error_m=None), [0.0], [[0.0] for _ in ROOF_NODES]
     with open(path_of(columns)) as file:
         lines = file.read().splitlines()
     rows = [[float(word) for word in line.split(",")] for line in lines[2:]]

@@ -26,8 +26,8 @@ struct ElementShape {
 // State of one integration point, for the output.
 struct SectionResult {
   double position = 0;            // along the element, in [0, 1]
-  Vector3 deformation;            // e0 [-], kz, ky [1/m]
-  Vector3 force;                  // N [N], Mz, My [N m]
+  Vector3 deformation = Vector3::Zero();  // e0 [-], kz, ky [1/m]
+  Vector3 force = Vector3::Zero();        // N [N], Mz, My [N m]
   double peak_strain_ratio = 0;   // largest |strain| of a fiber over its yield strain, at present
   double yielded = 0;             // 1 when a fiber carries plastic strain, else 0
 };

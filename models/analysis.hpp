@@ -30,6 +30,7 @@ struct OutputOptions {
   std::vector<std::string> history;
   std::vector<std::string> nodes;      // "structure.node" to keep; empty: all
   double amplification = 1;            // of the displacements stored in the frames (Warp By Vector scales further)
+  double checkpoint = 60;              // [s] of wall-clock time between checkpoints; 0: only when the run ends
 };
 
 }  // namespace nsframe

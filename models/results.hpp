@@ -50,6 +50,8 @@ struct StepReport {
   double complementarity_error = 0;
 };
 
+struct Snapshot;
+
 // Watches a time history. All calls come from the thread that runs it.
 class Observer {
  public:
@@ -62,6 +64,10 @@ class Observer {
   virtual void impact(const Impact& impact) { (void)impact; }
   // Called also when the run stops early.
   virtual void finish() {}
+  // Puts what it needs to go on after the last step into the snapshot; what it writes is then on the disk.
+  virtual void save(Snapshot& snapshot) { (void)snapshot; }
+  // In place of start() when a run goes on from a snapshot, with the state there.
+  virtual void resume(const Model& model, const State& state, const Snapshot& snapshot) { (void)snapshot; start(model, state); }
 };
 
 // Effective damping and frequency of one mode under a scheme with a given step.
@@ -116,6 +122,7 @@ struct Summary {
   Timing timing;
   std::vector<std::string> warnings;              // plain sentences
   bool completed = true;
+  bool interrupted = false;                       // stopped on request
   std::string stop_reason;                        // when not completed
   double end_time = 0;                            // [s]
 };

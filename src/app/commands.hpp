@@ -16,10 +16,12 @@ struct SceneArguments {
   std::filesystem::path output;     // empty: results/<name of the scene>
   int threads = 0;                  // 0: what the scene says
   bool quiet = false;
+  bool resume = false;              // go on from the checkpoint in the output folder
   bool json = false;
 };
 
-enum ExitCode { done = 0, defect = 1, bad_input = 2, not_converged = 3, input_output = 4 };
+// A run that a signal stopped returns 128 + its number: interrupted for SIGINT, 143 for SIGTERM.
+enum ExitCode { done = 0, defect = 1, bad_input = 2, not_converged = 3, input_output = 4, interrupted = 130 };
 
 int run(const SceneArguments& arguments);
 int check(const SceneArguments& arguments);

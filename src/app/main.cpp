@@ -48,6 +48,10 @@ int program(int count, char** values) {
   CLI::App* run_command = add_command(program, "run", "run a scene; writes summary.json, results.h5, frames.pvd", arguments);
   run_command->add_option("-o,--output", arguments.output, "folder of the results (default: results/<name of the scene>)");
   run_command->add_flag("-q,--quiet", arguments.quiet, "print errors only");
+  run_command->add_flag("--resume", arguments.resume,
+                        "go on from checkpoint.h5 in the folder of the results, also to a longer analysis.duration");
+  run_command->footer("Exit code: 0 done, 2 bad input, 3 did not converge, 4 files, 130 interrupted (143 by SIGTERM).\n"
+                      "After 3, 130, 143 or a crash, the same command with --resume goes on with the same bits.");
   run_command->callback([&] { command = [&] { return run(arguments); }; });
   CLI::App* check_command = add_command(program, "check", "validate a scene and print its model", arguments);
   check_command->callback([&] { command = [&] { return check(arguments); }; });

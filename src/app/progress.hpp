@@ -13,11 +13,13 @@ class ProgressBar : public Observer {
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
   void impact(const Impact&) override { ++impacts_; }
   void finish() override;
+  void save(Snapshot& snapshot) override;
+  void resume(const Model& model, const State& state, const Snapshot& snapshot) override;
 
  private:
   void draw(double time) const;
 
-  double duration_, start_ = 0, last_drawn_ = -1;
+  double duration_, start_ = 0, resumed_ = 0, last_drawn_ = -1;
   bool shown_;
   long impacts_ = 0;
   int steps_ = 0;

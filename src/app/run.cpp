@@ -1,7 +1,11 @@
 #include <fmt/format.h>
 
+#include <csignal>
+
 #include "app/commands.hpp"
 #include "app/progress.hpp"
+#include "app/resume.hpp"
+#include "base/errors.hpp"
 #include "base/timer.hpp"
 #include "output/drifts.hpp"
 #include "output/history_file.hpp"
@@ -52,6 +56,34 @@ void print_files(const std::filesystem::path& folder, bool frames) {
   fmt::print("  summary.json       everything above, for programs\n");
   fmt::print("  results.h5         histories, impacts and the complete scene (HDF5)\n");
   fmt::print("  scene.toml         the scene with every default that was used\n");
+  fmt::print("  checkpoint.h5      to go on from here with --resume, for instance to a longer analysis.duration\n");
+}
+
+// An earlier run's would not belong to the new files.
+void remove_checkpoint(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::remove(folder / "checkpoint.h5", error);
+  if (error) throw IoError(fmt::format("error: cannot remove '{}': {}", (folder / "checkpoint.h5").string(), error.message()));
+}
+
+RunControl keeping_checkpoints(const std::filesystem::path& folder, const std::string& scene, double interval) {
+  RunControl control;
+  control.stop_requested = [] { return SignalWatch::received() != 0; };
+  control.keep_snapshot = [=](const Snapshot& snapshot) { write_checkpoint(folder / "checkpoint.h5", scene, snapshot); };
+  control.snapshot_interval = interval;
+  return control;
+}
+
+int exit_code(const Summary& summary, const std::filesystem::path& folder) {
+  if (summary.completed) return done;
+  if (summary.interrupted) {
+    fmt::print(stderr, "interrupted at t = {:.6g} s; the same command with --resume goes on from there (results in {})\n",
+               summary.end_time, folder.string());
+    return interrupted - SIGINT + SignalWatch::received();
+  }
+  fmt::print(stderr, "error: stopped at t = {:.6g} s: {}\nwhat was computed until then is kept in {}\n", summary.end_time,
+             summary.stop_reason, folder.string());
+  return not_converged;
 }
 
 }  // namespace
@@ -59,12 +91,16 @@ void print_files(const std::filesystem::path& folder, bool frames) {
 int run(const SceneArguments& arguments) {
   const Timer timer;
   const LoadedScene loaded = load(arguments);
-  Simulation simulation(loaded.model, loaded.scene.analysis);
-  const double setup = timer.seconds();
   const std::filesystem::path folder = output_folder(arguments);
-  make_folder(folder);
   const std::string complete = write_scene(loaded.scene, folder);
+  Checkpoint checkpoint;
+  if (arguments.resume) checkpoint = checkpoint_to_resume(folder, complete);
+  Simulation simulation(loaded.model, loaded.scene.analysis);
+  if (arguments.resume) check_duration(checkpoint.snapshot, simulation.duration());
+  const double setup = timer.seconds();
+  make_folder(folder);
   write_text(folder / "scene.toml", complete);
+  if (!arguments.resume) remove_checkpoint(folder);
 
   PeakTracker peaks(loaded.scene.output.nodes);
   DriftTracker drifts;
@@ -78,7 +114,10 @@ int run(const SceneArguments& arguments) {
 #else
   if (wants_frames) throw InputError("error: output.frames: this nsframe was built without VTK; set frames = 0");
 #endif
-  Summary summary = simulation.run(observers);
+  const SignalWatch signals;
+  RunControl control = keeping_checkpoints(folder, complete, loaded.scene.output.checkpoint);
+  if (arguments.resume) control.resume = &checkpoint.snapshot;
+  Summary summary = simulation.run(observers, control);
   summary.title = loaded.scene.title;
   summary.timing.setup = setup;
   summary.poundings = merge_impacts(summary.impacts);
@@ -92,12 +131,7 @@ int run(const SceneArguments& arguments) {
     fmt::print("{}", summary_text(summary));
     print_files(folder, wants_frames);
   }
-  if (!summary.completed) {
-    fmt::print(stderr, "error: stopped at t = {:.6g} s: {}\nwhat was computed until then is kept in {}\n", summary.end_time,
-               summary.stop_reason, folder.string());
-    return not_converged;
-  }
-  return done;
+  return exit_code(summary, folder);
 }
 
 }  // namespace nsframe::app

@@ -22,7 +22,8 @@ IterationMatrix::IterationMatrix(const System& system, IterationMatrixOptions op
 
 void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness, double a) {
   ++factorizations_;
-  a_ = -1;  // not ready, should a block fail
+  a_ = -1;
+  stiffness_.assign(stiffness.valuePtr(), stiffness.valuePtr() + stiffness.nonZeros());
   responses_.assign(static_cast<std::size_t>(system.contacts().size()), VectorX());
   std::size_t structure = 0;
   std::vector<MatrixX> inverses;
@@ -54,6 +55,23 @@ void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness
     inverse_ = BlockOperator(inverses, ranges);
   }
   a_ = a;
+}
+
+void IterationMatrix::save(Snapshot& snapshot) const {
+  snapshot.put("iteration_matrix.a", a_);
+  snapshot.put("iteration_matrix.factorizations", static_cast<double>(factorizations_));
+  snapshot.put("iteration_matrix.stiffness", stiffness_);
+}
+
+void IterationMatrix::restore(const System& system, const Snapshot& snapshot) {
+  const double a = snapshot.number("iteration_matrix.a");
+  if (a > 0) {
+    SparseMatrix stiffness = system.assembler.tangent();
+    Eigen::Map<VectorX> values(stiffness.valuePtr(), stiffness.nonZeros());
+    snapshot.read("iteration_matrix.stiffness", values);
+    factor(system, stiffness, a);
+  }
+  factorizations_ = static_cast<long>(snapshot.number("iteration_matrix.factorizations"));
 }
 
 void IterationMatrix::factor_dense(Block& block, MatrixX J) const {

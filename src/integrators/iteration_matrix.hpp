@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "assembly/system.hpp"
+#include "models/snapshot.hpp"
 
 namespace nsframe {
 
@@ -22,6 +23,10 @@ class IterationMatrix {
   void factor(const System& system, const SparseMatrix& stiffness, double a);
   bool ready(double a) const { return a_ == a; }
   long factorizations() const { return factorizations_; }
+
+  // The factors stay in use for many steps: a snapshot holds the stiffness that they were made from.
+  void save(Snapshot& snapshot) const;
+  void restore(const System& system, const Snapshot& snapshot);
 
   // x = J^-1 rhs; x and rhs may not be the same.
   void solve(const VectorX& rhs, VectorX& x) const;
@@ -50,6 +55,7 @@ class IterationMatrix {
   bool symmetric_, linear_;
   double a_ = -1;
   long factorizations_ = 0;
+  std::vector<double> stiffness_;         // entries of the factored one, in the order of Assembler::tangent()
   std::vector<Block> blocks_;
   BlockOperator inverse_;
   bool explicit_inverse_ = false;

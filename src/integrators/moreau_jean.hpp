@@ -18,6 +18,8 @@ class MoreauJean : public Scheme {
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double h) const override;
   long factorizations() const override { return matrix_.factorizations(); }
+  void save(Snapshot& snapshot) const override { matrix_.save(snapshot); }
+  void restore(const System& system, const Snapshot& snapshot) override { matrix_.restore(system, snapshot); }
 
  private:
   void find_active_pairs(const System& system, const State& committed, double h, StepResult& result);

@@ -9,6 +9,7 @@
 #include "assembly/system.hpp"
 #include "models/analysis.hpp"
 #include "models/results.hpp"
+#include "models/snapshot.hpp"
 
 namespace nsframe {
 
@@ -41,6 +42,10 @@ class Scheme {
   virtual ModeResponse mode_response(double w, double xi, double h) const = 0;
 
   virtual long factorizations() const = 0;
+
+  // What outlives a step and is not in State: with it, a restored scheme goes on with the same bits.
+  virtual void save(Snapshot& snapshot) const = 0;
+  virtual void restore(const System& system, const Snapshot& snapshot) = 0;
 };
 
 // The scheme of that name. Throws InputError for an unknown one.

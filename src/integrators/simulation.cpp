@@ -109,10 +109,10 @@ Summary Simulation::outline() const {
   return summary;
 }
 
-Summary Simulation::run(const std::vector<Observer*>& observers) {
+Summary Simulation::run(const std::vector<Observer*>& observers, const RunControl& control) {
   Summary summary = outline();
   if (!(duration() > 0)) throw InputError("error: analysis.duration is missing, and there is no motion to take it from");
-  TimeHistoryResult result = run_time_history(system_, *scheme_, options_, duration(), state_, observers);
+  TimeHistoryResult result = run_time_history(system_, *scheme_, options_, duration(), state_, observers, control);
   summary.steps = result.steps;
   summary.end_time = state_.time;
   summary.impacts = std::move(result.impacts);
@@ -124,6 +124,7 @@ Summary Simulation::run(const std::vector<Observer*>& observers) {
   summary.halved_steps = result.halved_steps;
   summary.factorizations = scheme_->factorizations();
   summary.completed = result.completed;
+  summary.interrupted = result.interrupted;
   summary.stop_reason = result.stop_reason;
   summary.timing = {setup_seconds_, result.step_seconds, result.observer_seconds};
   return summary;

@@ -13,7 +13,8 @@ class Simulation {
   Simulation(const Model& model, const AnalysisOptions& options, int modes = 12);
 
   // Runs the time history with the options' duration (or that of the longest motion), from the initial state.
-  Summary run(const std::vector<Observer*>& observers);
+  // Or from a snapshot, when `control` has one; the summary is that of the whole time history.
+  Summary run(const std::vector<Observer*>& observers, const RunControl& control = {});
 
   System& system() { return system_; }
   const std::vector<StructureModes>& modes() const { return modes_; }

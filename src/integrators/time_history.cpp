@@ -1,5 +1,7 @@
 #include "integrators/time_history.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,28 +12,78 @@ namespace nsframe {
 
 namespace {
 
+// The sums by name, for snapshots.
+template <class Sums, class Visit>
+void visit_sums(Sums& sums, const Visit& visit) {
+  visit("steps", sums.steps);
+  visit("newton_iterations", sums.newton_iterations);
+  visit("halved_steps", sums.halved_steps);
+  visit("kinetic", sums.energy.kinetic);
+  visit("strain", sums.energy.strain);
+  visit("damping", sums.energy.damping);
+  visit("contact", sums.energy.contact);
+  visit("numerical", sums.energy.numerical);
+  visit("input", sums.energy.input);
+  visit("initial", sums.energy.initial);
+  visit("largest_energy", sums.largest_energy);
+  visit("worst_balance_error", sums.worst_balance_error);
+  visit("max_penetration", sums.max_penetration);
+  visit("max_complementarity_error", sums.max_complementarity_error);
+  visit("observer_seconds", sums.observer_seconds);
+}
+
+// Numbers that change when the mass or a record does: a scene only names its records.
+std::vector<double> fingerprint(const Model& model) {
+  std::vector<double> numbers{model.mass.norm(), model.viscous_damping.norm(), model.gravity_load.norm()};
+  for (const GroundMotion& motion : model.motions) {
+    const Eigen::Map<const VectorX> samples(motion.acceleration.data(), static_cast<Eigen::Index>(motion.acceleration.size()));
+    numbers.insert(numbers.end(), {motion.duration(), samples.sum(), samples.norm()});
+  }
+  return numbers;
+}
+
 class TimeHistory {
  public:
-  TimeHistory(System& system, Scheme& scheme, const AnalysisOptions& options, const std::vector<Observer*>& observers)
-      : system_(system), scheme_(scheme), options_(options), observers_(observers) {}
+  TimeHistory(System& system, Scheme& scheme, const AnalysisOptions& options, const std::vector<Observer*>& observers,
+              const RunControl& control)
+      : system_(system), scheme_(scheme), options_(options), observers_(observers), control_(control) {}
 
   TimeHistoryResult run(double duration, State& committed);
 
  private:
+  void begin(State& committed, double duration);
+  // One step of the user's dt; false when it could not be made to converge.
+  bool step(int number, const State& committed, State& trial);
   // Advances `committed` by h into `trial`, in halves where Newton fails.
   void advance(const State& committed, State& trial, double h, int halvings);
   void add(const StepResult& step);
   void watch_energy(const State& state);
+  bool stop_now();
+  void save(const State& committed);
+  void restore(State& committed);
+
+  template <class Call>
+  void observe(const Call& call) {
+    if (observers_.empty()) return;
+    const Timer timer;
+    for (Observer* observer : observers_) call(*observer);
+    result_.observer_seconds += timer.seconds();
+  }
 
   System& system_;
   Scheme& scheme_;
   const AnalysisOptions& options_;
   const std::vector<Observer*>& observers_;
+  const RunControl& control_;
   TimeHistoryResult result_;
   StepReport report_;
   StepResult step_;
+  std::vector<Impact> step_impacts_;
   VectorX momentum_;
-  double largest_energy_ = 0;
+  double start_ = 0;           // of the time history [s]
+  Timer clock_;
+  double last_save_ = 0;       // on the clock [s]
+  double earlier_seconds_ = 0;  // of the run that this one continues
 };
 
 void TimeHistory::advance(const State& committed, State& trial, double h, int halvings) {
@@ -61,75 +113,128 @@ void TimeHistory::add(const StepResult& step) {
   result_.energy.contact += step.contact;
   result_.energy.numerical += step.numerical;
   result_.energy.input += step.input;
-  result_.impacts.insert(result_.impacts.end(), step.impacts.begin(), step.impacts.end());
+  step_impacts_.insert(step_impacts_.end(), step.impacts.begin(), step.impacts.end());
 }
 
 void TimeHistory::watch_energy(const State& state) {
   Energy& energy = result_.energy;
+  double& largest = result_.largest_energy;
   momentum_.noalias() = system_.mass() * state.velocity;
   energy.kinetic = 0.5 * state.velocity.dot(momentum_);
-  largest_energy_ = std::max({largest_energy_, energy.kinetic, std::abs(energy.strain), std::abs(energy.input), energy.initial});
-  if (largest_energy_ > 0) {
-    result_.worst_balance_error = std::max(result_.worst_balance_error, std::abs(energy.balance_error()) / largest_energy_);
+  largest = std::max({largest, energy.kinetic, std::abs(energy.strain), std::abs(energy.input), energy.initial});
+  if (largest > 0) {
+    result_.worst_balance_error = std::max(result_.worst_balance_error, std::abs(energy.balance_error()) / largest);
   }
 }
 
-TimeHistoryResult TimeHistory::run(double duration, State& committed) {
-  const double start = committed.time;
-  const int steps = static_cast<int>(std::llround(duration / options_.dt));
-  State trial = committed;
+void TimeHistory::begin(State& committed, double duration) {
+  if (control_.resume) {
+    check_duration(*control_.resume, duration);
+    restore(committed);
+    observe([&](Observer& observer) { observer.resume(system_.model, committed, *control_.resume); });
+    return;
+  }
+  start_ = committed.time;
   result_.energy.initial = 0.5 * committed.velocity.dot(system_.mass() * committed.velocity);
   watch_energy(committed);
-  const Timer clock;
-  double observing = 0;
-  const auto observe = [&](auto&& call) {
-    if (observers_.empty()) return;
-    const Timer timer;
-    for (Observer* observer : observers_) call(*observer);
-    observing += timer.seconds();
-  };
   observe([&](Observer& observer) { observer.start(system_.model, committed); });
-  result_.completed = true;
-  for (int n = 1; n <= steps; ++n) {
-    report_ = StepReport{};
-    report_.step = n;
-    const Energy energy = result_.energy;
-    const std::size_t impacts = result_.impacts.size();
-    try {
-      // times from the step number, so that rounding does not add up
-      const double end = start + n * options_.dt;
-      advance(committed, trial, options_.dt, 0);
-      trial.time = end;
-    } catch (const ConvergenceError& problem) {
-      result_.completed = false;
-      result_.stop_reason = problem.what();
-      result_.energy = energy;  // without the substeps of the step that was given up
-      result_.impacts.resize(impacts);
-      break;
-    }
-    ++result_.steps;
-    watch_energy(trial);
-    observe([&](Observer& observer) {
-      for (std::size_t i = impacts; i < result_.impacts.size(); ++i) observer.impact(result_.impacts[i]);
-      observer.step(committed, trial, report_, result_.energy);
-    });
-    std::swap(committed, trial);
+}
+
+bool TimeHistory::step(int number, const State& committed, State& trial) {
+  report_ = StepReport{};
+  report_.step = number;
+  step_impacts_.clear();
+  const RunSums before = result_;
+  try {
+    // times from the step number, so that rounding does not add up
+    const double end = start_ + number * options_.dt;
+    advance(committed, trial, options_.dt, 0);
+    trial.time = end;
+  } catch (const ConvergenceError& problem) {
+    static_cast<RunSums&>(result_) = before;
+    result_.stop_reason = problem.what();
+    return false;
   }
+  ++result_.steps;
+  watch_energy(trial);
+  result_.impacts.insert(result_.impacts.end(), step_impacts_.begin(), step_impacts_.end());
+  observe([&](Observer& observer) {
+    for (const Impact& impact : step_impacts_) observer.impact(impact);
+    observer.step(committed, trial, report_, result_.energy);
+  });
+  return true;
+}
+
+bool TimeHistory::stop_now() {
+  if (!control_.stop_requested || !control_.stop_requested()) return false;
+  result_.interrupted = true;
+  result_.stop_reason = "interrupted";
+  return true;
+}
+
+void TimeHistory::save(const State& committed) {
+  if (!control_.keep_snapshot) return;
+  Snapshot snapshot;
+  observe([&](Observer& observer) { observer.save(snapshot); });
+  snapshot.put("model.fingerprint", fingerprint(system_.model));
+  nsframe::save(committed, snapshot);
+  scheme_.save(snapshot);
+  snapshot.put("time_history.start", start_);
+  snapshot.put("time_history.wall_seconds", earlier_seconds_ + clock_.seconds());
+  visit_sums(result_, [&](const char* name, auto value) {
+    snapshot.put(std::string("time_history.") + name, static_cast<double>(value));
+  });
+  nsframe::save("time_history.impacts", result_.impacts, snapshot);
+  control_.keep_snapshot(snapshot);
+  last_save_ = clock_.seconds();
+}
+
+void TimeHistory::restore(State& committed) {
+  const Snapshot& snapshot = *control_.resume;
+  if (snapshot.array("model.fingerprint") != fingerprint(system_.model)) {
+    throw InputError("error: masses or ground motions are not those of the checkpoint: has a record been changed?");
+  }
+  nsframe::restore(committed, snapshot);
+  scheme_.restore(system_, snapshot);
+  start_ = snapshot.number("time_history.start");
+  visit_sums(result_, [&](const char* name, auto& value) {
+    value = static_cast<std::remove_reference_t<decltype(value)>>(snapshot.number(std::string("time_history.") + name));
+  });
+  earlier_seconds_ = snapshot.number("time_history.wall_seconds");
+  result_.impacts = restore_impacts("time_history.impacts", snapshot);
+}
+
+TimeHistoryResult TimeHistory::run(double duration, State& committed) {
+  const int steps = static_cast<int>(std::llround(duration / options_.dt));
+  begin(committed, duration);
+  State trial = committed;
+  const bool saves = control_.keep_snapshot && control_.snapshot_interval > 0;
+  while (result_.steps < steps && !stop_now() && step(result_.steps + 1, committed, trial)) {
+    std::swap(committed, trial);
+    if (saves && clock_.seconds() - last_save_ >= control_.snapshot_interval) save(committed);
+  }
+  result_.completed = result_.steps == steps;
+  save(committed);
   if (system_.contacts().size() > 0) {
     const VectorX gap = system_.contacts().jacobian * committed.displacement + system_.contacts().initial_gap;
     result_.max_penetration = std::max(result_.max_penetration, -gap.minCoeff());
   }
   observe([](Observer& observer) { observer.finish(); });
-  result_.observer_seconds = observing;
-  result_.step_seconds = clock.seconds() - observing;
+  result_.step_seconds = earlier_seconds_ + clock_.seconds() - result_.observer_seconds;
   return std::move(result_);
 }
 
 }  // namespace
 
+void check_duration(const Snapshot& snapshot, double duration) {
+  const double done = snapshot.number("state.time") - snapshot.number("time_history.start");
+  if (done <= duration * (1 + 1e-9)) return;
+  throw InputError(fmt::format("error: the checkpoint is at t = {:g} s, beyond the duration of {:g} s", done, duration));
+}
+
 TimeHistoryResult run_time_history(System& system, Scheme& scheme, const AnalysisOptions& options, double duration,
-                                   State& state, const std::vector<Observer*>& observers) {
-  return TimeHistory(system, scheme, options, observers).run(duration, state);
+                                   State& state, const std::vector<Observer*>& observers, const RunControl& control) {
+  return TimeHistory(system, scheme, options, observers, control).run(duration, state);
 }
 
 }  // namespace nsframe

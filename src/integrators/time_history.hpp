@@ -1,26 +1,48 @@
-// Runs a scheme over time: halves steps that do not converge, sums energies, collects impacts, calls observers.
+// Runs a scheme over time: halves steps that do not converge, sums energies, collects impacts, calls observers, and
+// takes the snapshots from which a run goes on later.
 #pragma once
+
+#include <functional>
 
 #include "integrators/scheme.hpp"
 
 namespace nsframe {
 
-struct TimeHistoryResult {
+// Sums over the accepted steps.
+struct RunSums {
   int steps = 0;
   long newton_iterations = 0, halved_steps = 0;
   Energy energy;
+  double largest_energy = 0;         // of all kinds and steps so far [J]
   double worst_balance_error = 0;    // relative to the largest energy so far
   double max_penetration = 0;        // [m]
   double max_complementarity_error = 0;
+};
+
+struct TimeHistoryResult : RunSums {
   std::vector<Impact> impacts;
   bool completed = false;
+  bool interrupted = false;          // stop_requested() said so
   std::string stop_reason;
   double step_seconds = 0, observer_seconds = 0;
 };
 
+// Stopping early and going on later; with the defaults, a run does neither.
+struct RunControl {
+  const Snapshot* resume = nullptr;                   // go on from here
+  std::function<bool()> stop_requested;               // looked at after every step
+  std::function<void(const Snapshot&)> keep_snapshot;  // called at the end, however it comes, and in between:
+  double snapshot_interval = 0;                       // of wall-clock time [s]; 0: only at the end
+};
+
+// Throws InputError when a snapshot is beyond the end of a time history of that duration.
+void check_duration(const Snapshot& snapshot, double duration);
+
 // Steps of options.dt from state.time over `duration`; `state` ends at the last accepted step, also when a step
-// could not be made to converge: then `completed` is false and stop_reason says where.
+// could not be made to converge: then `completed` is false and stop_reason says where. A run that goes on from a
+// snapshot ends at the same time as one from the start, with the same bits in results and observers.
 TimeHistoryResult run_time_history(System& system, Scheme& scheme, const AnalysisOptions& options, double duration,
-                                   State& state, const std::vector<Observer*>& observers);
+                                   State& state, const std::vector<Observer*>& observers,
+                                   const RunControl& control = {});
 
 }  // namespace nsframe

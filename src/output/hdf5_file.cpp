@@ -85,11 +85,14 @@ QuietHdf5::QuietHdf5() {
 
 QuietHdf5::~QuietHdf5() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
 
-Hdf5File::Hdf5File(std::filesystem::path path) : path_(std::move(path)), partial_(path_) {
+Hdf5File::Hdf5File(std::filesystem::path path, Mode mode)
+    : path_(std::move(path)), partial_(path_), published_(mode == Mode::reopen) {
   const QuietHdf5 quiet;
   partial_ += ".partial";
   const Hdf5Id access = file_access();
-  file_ = Hdf5Id(check(H5Fcreate(partial_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), "creating the file"), H5Fclose);
+  const hid_t file = published_ ? H5Fopen(path_.c_str(), H5F_ACC_RDWR, access)
+                                : H5Fcreate(partial_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  file_ = Hdf5Id(check(file, published_ ? "opening the file" : "creating the file"), H5Fclose);
   text_type_ = Hdf5Id(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(text_type_, H5T_VARIABLE);
   H5Tset_cset(text_type_, H5T_CSET_UTF8);
@@ -153,12 +156,36 @@ void Hdf5File::flush() {
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "writing to the disk");
 }
 
+void Hdf5File::sync() {
+  flush();
+  if (fsync(descriptor()) != 0 && errno != EINVAL) {
+    throw IoError(fmt::format("cannot write '{}': {}", path_.string(), std::strerror(errno)));
+  }
+}
+
 void Hdf5File::close() {
   flush();
   file_ = Hdf5Id();
 }
 
+bool Hdf5File::has(const std::string& name) const {
+  const QuietHdf5 quiet;
+  return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
+}
+
+void Hdf5File::remove(const std::string& name) {
+  if (!has(name)) return;
+  const QuietHdf5 quiet;
+  check(H5Ldelete(file_, name.c_str(), H5P_DEFAULT), name);
+}
+
+void Hdf5File::remove_attribute(const std::string& object, const std::string& name) {
+  if (H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return;
+  check(H5Adelete_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT), object);
+}
+
 void Hdf5File::make_group(const std::string& name) {
+  if (has(name)) return;
   const QuietHdf5 quiet;
   const Hdf5Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(links, 1);
@@ -168,6 +195,7 @@ void Hdf5File::make_group(const std::string& name) {
 }
 
 void Hdf5File::write_text(const std::string& name, const std::string& text) {
+  remove(name);
   const QuietHdf5 quiet;
   const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
   const Hdf5Id properties = data_set_properties();
@@ -178,6 +206,7 @@ void Hdf5File::write_text(const std::string& name, const std::string& text) {
 }
 
 void Hdf5File::write_texts(const std::string& name, const std::vector<std::string>& texts) {
+  remove(name);
   const QuietHdf5 quiet;
   const Hdf5Id space = simple_space(texts.size());
   const Hdf5Id properties = data_set_properties();
@@ -187,6 +216,7 @@ void Hdf5File::write_texts(const std::string& name, const std::vector<std::strin
 }
 
 void Hdf5File::write_numbers(const std::string& name, const std::vector<double>& values) {
+  remove(name);
   const QuietHdf5 quiet;
   const Hdf5Id space = simple_space(values.size());
   const Hdf5Id properties = data_set_properties();
@@ -200,6 +230,7 @@ void Hdf5File::write_numbers(const std::string& name, const std::vector<double>&
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, const std::string& text) {
   const QuietHdf5 quiet;
+  remove_attribute(object, name);
   const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
   const Hdf5Id attribute(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), text_type_, space, H5P_DEFAULT,
                                                  H5P_DEFAULT, H5P_DEFAULT),
@@ -212,6 +243,7 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
 void Hdf5File::set_attribute(const std::string& object, const std::string& name,
                              const std::vector<std::string>& texts) {
   const QuietHdf5 quiet;
+  remove_attribute(object, name);
   const Hdf5Id space = simple_space(texts.size());
   const Hdf5Id attribute(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), text_type_, space, H5P_DEFAULT,
                                                  H5P_DEFAULT, H5P_DEFAULT),
@@ -222,9 +254,7 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, double value) {
   const QuietHdf5 quiet;
-  if (H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) > 0) {
-    check(H5Adelete_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT), object);
-  }
+  remove_attribute(object, name);
   const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
   const Hdf5Id attribute(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), H5T_NATIVE_DOUBLE, space,
                                                  H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
@@ -236,24 +266,59 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
 template <class Value>
 Hdf5Series<Value>::Hdf5Series(Hdf5File& file, const std::string& name, std::vector<hsize_t> shape, hsize_t block)
     : file_(&file), name_(name), shape_(std::move(shape)) {
-  const QuietHdf5 quiet;
   for (const hsize_t size : shape_) row_size_ *= size;
+  if (file.has(name)) {
+    open();
+  } else {
+    create(block);
+  }
+  buffer_.reserve(row_size_ * block);
+}
+
+template <class Value>
+void Hdf5Series<Value>::create(hsize_t block) {
+  const QuietHdf5 quiet;
   std::vector<hsize_t> now{0}, most{H5S_UNLIMITED}, chunk{block};
   for (const hsize_t size : shape_) {
     now.push_back(size);
     most.push_back(size);
     chunk.push_back(std::max<hsize_t>(size, 1));  // a chunk may not be empty, a row may
   }
-  const Hdf5Id space(file.check(H5Screate_simple(int(now.size()), now.data(), most.data()), name), H5Sclose);
+  const Hdf5Id space(file_->check(H5Screate_simple(int(now.size()), now.data(), most.data()), name_), H5Sclose);
   const Hdf5Id properties = data_set_properties();
-  file.check(H5Pset_chunk(properties, int(chunk.size()), chunk.data()), name);
+  file_->check(H5Pset_chunk(properties, int(chunk.size()), chunk.data()), name_);
   const Hdf5Id links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   H5Pset_create_intermediate_group(links, 1);
   data_set_ = Hdf5Id(
-      file.check(H5Dcreate2(file.id(), name.c_str(), native_type<Value>(), space, links, properties, H5P_DEFAULT),
-                 name),
+      file_->check(H5Dcreate2(file_->id(), name_.c_str(), native_type<Value>(), space, links, properties, H5P_DEFAULT),
+                   name_),
       H5Dclose);
-  buffer_.reserve(row_size_ * block);
+}
+
+template <class Value>
+void Hdf5Series<Value>::open() {
+  const QuietHdf5 quiet;
+  data_set_ = Hdf5Id(file_->check(H5Dopen2(file_->id(), name_.c_str(), H5P_DEFAULT), name_), H5Dclose);
+  const Hdf5Id space(file_->check(H5Dget_space(data_set_), name_), H5Sclose);
+  std::vector<hsize_t> size(shape_.size() + 1);
+  const bool same = H5Sget_simple_extent_ndims(space) == int(size.size()) &&
+                    H5Sget_simple_extent_dims(space, size.data(), nullptr) >= 0 &&
+                    std::equal(shape_.begin(), shape_.end(), size.begin() + 1);
+  if (!same) throw IoError(fmt::format("'{}' is not a history of this scene: '{}' has another shape", file_->path().string(), name_));
+  rows_ = size[0];
+}
+
+template <class Value>
+void Hdf5Series<Value>::truncate(hsize_t rows) {
+  if (rows_ < rows) {
+    throw IoError(fmt::format("'{}' has lost rows: '{}' has {}, the checkpoint needs {}", file_->path().string(), name_, rows_, rows));
+  }
+  const QuietHdf5 quiet;
+  std::vector<hsize_t> size{rows};
+  size.insert(size.end(), shape_.begin(), shape_.end());
+  file_->check(H5Dset_extent(data_set_, size.data()), name_);
+  rows_ = rows;
+  buffer_.clear();
 }
 
 template <class Value>

@@ -51,16 +51,22 @@ class Hdf5Id {
 
 class Hdf5File {
  public:
-  // Creates `<path>.partial`; publish() gives it its name.
-  explicit Hdf5File(std::filesystem::path path);
+  // `create` makes `<path>.partial`, to which publish() gives its name. `reopen` goes on with the file at `path`: what
+  // is created again then replaces what is there, except groups and series, which stay.
+  enum class Mode { create, reopen };
+  explicit Hdf5File(std::filesystem::path path, Mode mode = Mode::create);
   ~Hdf5File();
 
   // From here on the file is at `path`, replacing an earlier one, and what was flushed can be read there.
   void publish();
   void flush();
+  void sync();  // flushes, and waits until the disk has it
   void close();
 
   hid_t id() const { return file_; }
+  const std::filesystem::path& path() const { return path_; }
+  bool has(const std::string& name) const;
+  void remove(const std::string& name);  // an object that may exist
   void make_group(const std::string& name);
   void write_text(const std::string& name, const std::string& text);
   void write_texts(const std::string& name, const std::vector<std::string>& texts);
@@ -74,6 +80,7 @@ class Hdf5File {
   hid_t check(hid_t result, const std::string& doing) const;
 
  private:
+  void remove_attribute(const std::string& object, const std::string& name);
   void reserve_space() const;
   void cut_off() const;
   int descriptor() const;
@@ -95,8 +102,14 @@ class Hdf5Series {
   }
   // Appends the buffered rows to the file.
   void write();
+  // Drops what follows the first `rows` in a file that was opened again.
+  void truncate(hsize_t rows);
+  hsize_t rows() const { return rows_; }  // in the file
 
  private:
+  void create(hsize_t block);
+  void open();
+
   Hdf5File* file_;
   std::string name_;
   std::vector<hsize_t> shape_;

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <optional>
 
 #include "base/diagnostics.hpp"
 #include "base/errors.hpp"
+#include "models/snapshot.hpp"
 #include "output/files.hpp"
 #include "output/hdf5_file.hpp"
 #include "output/history_parts.hpp"
@@ -51,6 +53,8 @@ class HistoryFile::Writer {
     if (impact_rows_) impact_rows_->add(impact);
   }
   void finish();
+  void save(Snapshot& snapshot);
+  void resume(const Model& model, const State& state, const Snapshot& snapshot);
 
   double seconds() const { return seconds_; }
 
@@ -58,6 +62,7 @@ class HistoryFile::Writer {
   bool asked(const char* name) const {
     return std::find(options_.history.begin(), options_.history.end(), name) != options_.history.end();
   }
+  void open(const Model& model, const State& state, Hdf5File::Mode mode);
   void add_row(const Sample& sample);
   void write_block();
 
@@ -87,10 +92,11 @@ HistoryFile::Writer::~Writer() {
   }
 }
 
-void HistoryFile::Writer::start(const Model& model, const State& state) {
+// The file with all its data sets, new or as they are.
+void HistoryFile::Writer::open(const Model& model, const State& state, Hdf5File::Mode mode) {
   model_ = &model;
   make_folder(path_.parent_path());
-  file_.emplace(path_);
+  file_.emplace(path_, mode);
   file_->set_attribute("/", "program", "nsframe");
   file_->set_attribute("/", "version", NSFRAME_VERSION);
   file_->set_attribute("/", "finished", 0.0);
@@ -112,6 +118,10 @@ void HistoryFile::Writer::start(const Model& model, const State& state) {
   if (!asked("energy")) file_->make_group("/energy");
   impact_rows_ = std::make_unique<ImpactRows>(*file_, model.contacts);
   impulse_ = VectorX::Zero(model.contacts.size());
+}
+
+void HistoryFile::Writer::start(const Model& model, const State& state) {
+  open(model, state, Hdf5File::Mode::create);
   clock_.start(state.time);
   energy_.initial = energy_.kinetic = 0.5 * state.velocity.dot(model.mass * state.velocity);
   if (!parts_.empty()) add_row({state, state, 0, energy_, impulse_});
@@ -148,6 +158,34 @@ void HistoryFile::Writer::write_block() {
   seconds_ += std::chrono::duration<double>(last_write_ - begin).count();
 }
 
+void HistoryFile::Writer::save(Snapshot& snapshot) {
+  write_block();
+  file_->sync();
+  snapshot.put("history.rows", static_cast<double>(time_->rows()));
+  snapshot.put("history.next_sample", clock_.next());
+  snapshot.put("history.impulse", impulse_);
+  const Energy& e = energy_;
+  snapshot.put("history.energy", std::vector<double>{e.kinetic, e.strain, e.damping, e.contact, e.numerical, e.input, e.initial});
+  nsframe::save("history.impacts", impacts_, snapshot);
+}
+
+void HistoryFile::Writer::resume(const Model& model, const State& state, const Snapshot& snapshot) {
+  open(model, state, Hdf5File::Mode::reopen);
+  const auto rows = static_cast<hsize_t>(snapshot.number("history.rows"));
+  clock_.resume(snapshot.number("history.next_sample"));
+  snapshot.read("history.impulse", impulse_);
+  std::array<double, 7> e{};
+  snapshot.read("history.energy", e);
+  energy_ = {e[0], e[1], e[2], e[3], e[4], e[5], e[6]};
+  impacts_ = restore_impacts("history.impacts", snapshot);
+  time_->truncate(rows);
+  for (auto& part : parts_) part->truncate(rows);
+  impact_rows_->truncate(impacts_.size());
+  file_->remove("/poundings");
+  last_write_ = Clock::now();
+  file_->flush();
+}
+
 void HistoryFile::Writer::finish() {
   if (!file_) return;
   write_block();
@@ -175,6 +213,12 @@ void HistoryFile::step(const State& before, const State& after, const StepReport
 void HistoryFile::impact(const Impact& impact) { writer_->impact(impact); }
 
 void HistoryFile::finish() { writer_->finish(); }
+
+void HistoryFile::save(Snapshot& snapshot) { writer_->save(snapshot); }
+
+void HistoryFile::resume(const Model& model, const State& state, const Snapshot& snapshot) {
+  writer_->resume(model, state, snapshot);
+}
 
 double HistoryFile::seconds() const { return writer_->seconds(); }
 

@@ -22,7 +22,8 @@ namespace nsframe {
 //   /poundings/time, duration, pair, approach_velocity, impulse, effective_restitution, impacts
 //   /scene, the complete scene as text; attributes program, version, finished
 // Only histories named in OutputOptions::history have rows; without any, a step costs nothing.
-// Rows are written in blocks and flushed, so that after a crash everything but the last block is readable.
+// Rows are written in blocks and flushed, so that after a crash everything but the last block is readable, and a run
+// can be resumed from its last snapshot.
 class HistoryFile : public Observer {
  public:
   HistoryFile(std::filesystem::path path, const OutputOptions& options, std::string scene_text);
@@ -33,6 +34,9 @@ class HistoryFile : public Observer {
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
   void impact(const Impact& impact) override;
   void finish() override;
+  void save(Snapshot& snapshot) override;
+  // Opens the existing file, drops the rows after the snapshot and goes on with it.
+  void resume(const Model& model, const State& state, const Snapshot& snapshot) override;
 
   double seconds() const;  // spent writing blocks
 

@@ -163,6 +163,11 @@ void ImpactRows::write() {
   for (auto& column : columns_) column.write();
 }
 
+void ImpactRows::truncate(hsize_t rows) {
+  pair_.truncate(rows);
+  for (auto& column : columns_) column.truncate(rows);
+}
+
 void write_poundings(Hdf5File& file, const std::vector<Pounding>& poundings) {
   file.make_group("/poundings");
   const auto column = [&](const char* name, const char* units, auto value) {

@@ -28,6 +28,9 @@ class HistoryPart {
   void write() {
     for (auto& series : series_) series.write();
   }
+  void truncate(hsize_t rows) {
+    for (auto& series : series_) series.truncate(rows);
+  }
 
  protected:
   Hdf5Series<double>& add_series(Hdf5File& file, const std::string& name, std::vector<hsize_t> shape, std::size_t block,
@@ -48,6 +51,7 @@ class ImpactRows {
   ImpactRows(Hdf5File& file, const Contacts& contacts);
   void add(const Impact& impact);
   void write();
+  void truncate(hsize_t rows);
 
  private:
   std::vector<Hdf5Series<double>> columns_;

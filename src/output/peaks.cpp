@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "models/snapshot.hpp"
+
 namespace nsframe {
 namespace {
 
@@ -52,6 +54,19 @@ void PeakTracker::step(const State& before, const State& after, const StepReport
     const double relative = moving_.value(static_cast<int>(i / 3 * 4 + i % 3), acceleration_.data());
     raise(peak_acceleration_[i], relative + ground[static_cast<Eigen::Index>(i % 3)]);
   }
+}
+
+void PeakTracker::save(Snapshot& snapshot) {
+  snapshot.put("peaks.displacement", displacement_);
+  snapshot.put("peaks.velocity", velocity_);
+  snapshot.put("peaks.acceleration", peak_acceleration_);
+}
+
+void PeakTracker::resume(const Model& model, const State& state, const Snapshot& snapshot) {
+  start(model, state);
+  snapshot.read("peaks.displacement", displacement_);
+  snapshot.read("peaks.velocity", velocity_);
+  snapshot.read("peaks.acceleration", peak_acceleration_);
 }
 
 std::vector<Peak> PeakTracker::peaks() const {

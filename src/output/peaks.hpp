@@ -16,6 +16,8 @@ class PeakTracker : public Observer {
 
   void start(const Model& model, const State& state) override;
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
+  void save(Snapshot& snapshot) override;
+  void resume(const Model& model, const State& state, const Snapshot& snapshot) override;
 
   std::vector<Peak> peaks() const;
 

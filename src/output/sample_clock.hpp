@@ -12,6 +12,9 @@ class SampleClock {
 
   void start(double time) { next_ = std::floor(time * rate_ + 1e-6) + 1; }
 
+  double next() const { return next_; }
+  void resume(double next) { next_ = next; }
+
   // True when the step that ends at `after` is the nearest to the next sample. Steps have one length, so the next
   // step would end at after + (after - before).
   bool due(double before, double after) {

@@ -25,6 +25,7 @@
 #include <string>
 
 #include "base/errors.hpp"
+#include "models/snapshot.hpp"
 #include "output/files.hpp"
 #include "output/frame_geometry.hpp"
 #include "output/paraview_script.hpp"
@@ -89,13 +90,17 @@ double largest_norm(const std::vector<double>& vectors) {
   return largest;
 }
 
-// Frames of an earlier run must not mix with those of this one.
-void remove_frames(const std::filesystem::path& folder) {
+std::string frame_name(std::size_t frame) { return fmt::format("frame_{:06d}.vtu", frame); }
+
+// Frames of an earlier run, or from `first` on, must not mix with those of this one.
+void remove_frames(const std::filesystem::path& folder, std::size_t first) {
   std::error_code ignored;
   std::filesystem::remove(folder / "frames.pvd", ignored);
+  const std::string kept = frame_name(first);
   for (const auto& entry : std::filesystem::directory_iterator(folder / "frames", ignored)) {
     const std::string name = entry.path().filename().string();
-    if (name.rfind("frame_", 0) == 0 && entry.path().extension() == ".vtu") {
+    const bool later = name.size() > kept.size() || (name.size() == kept.size() && name >= kept);
+    if (later && name.rfind("frame_", 0) == 0 && entry.path().extension() == ".vtu") {
       std::filesystem::remove(entry.path(), ignored);
     }
   }
@@ -110,15 +115,9 @@ class VtkFrames::Writer {
 
   void start(const Model& model, const State& state) {
     const auto begin = Clock::now();
-    model_ = &model;
-    make_folder(folder_ / "frames");
-    remove_frames(folder_);
-    geometry_ = frame_geometry(model);
-    impulse_ = VectorX::Zero(model.contacts.size());
+    prepare(model, state);
+    remove_frames(folder_, 0);
     clock_.start(state.time);
-    evaluate_frame(geometry_, model, state, impulse_, fields_);
-    exaggerated_ = fields_.displacement;
-    build_grid();
     write(state);
     write_script();
     seconds_ += std::chrono::duration<double>(Clock::now() - begin).count();
@@ -137,11 +136,42 @@ class VtkFrames::Writer {
     if (model_) write_script();
   }
 
+  void save(Snapshot& snapshot) const {
+    snapshot.put("frames.times", times_);
+    snapshot.put("frames.next_sample", clock_.next());
+    snapshot.put("frames.impulse", impulse_);
+    snapshot.put("frames.largest_displacement", largest_displacement_);
+    snapshot.put("frames.largest_time", largest_time_);
+  }
+
+  void resume(const Model& model, const State& state, const Snapshot& snapshot) {
+    prepare(model, state);
+    times_ = snapshot.array("frames.times");
+    clock_.resume(snapshot.number("frames.next_sample"));
+    snapshot.read("frames.impulse", impulse_);
+    largest_displacement_ = snapshot.number("frames.largest_displacement");
+    largest_time_ = snapshot.number("frames.largest_time");
+    remove_frames(folder_, times_.size());
+    for (std::size_t frame = 0; frame < times_.size(); ++frame) add_to_collection(frame);
+    write_collection();
+  }
+
   double seconds() const { return seconds_; }
-  int frames() const { return frames_; }
+  int frames() const { return static_cast<int>(times_.size()); }
 
  private:
+  void prepare(const Model& model, const State& state) {
+    model_ = &model;
+    make_folder(folder_ / "frames");
+    geometry_ = frame_geometry(model);
+    impulse_ = VectorX::Zero(model.contacts.size());
+    evaluate_frame(geometry_, model, state, impulse_, fields_);
+    exaggerated_ = fields_.displacement;
+    build_grid();
+  }
   void build_grid();
+  void add_to_collection(std::size_t frame);
+  void write_collection() const;
   void write(const State& state);
   void write_script() const;
 
@@ -159,11 +189,13 @@ class VtkFrames::Writer {
   double largest_displacement_ = 0;  // of all frames [m], and when [s]
   double largest_time_ = 0;
   double seconds_ = 0;
-  int frames_ = 0;
+  std::vector<double> times_;        // of the frames [s]
 };
 
 void VtkFrames::Writer::build_grid() {
   grid_->SetPoints(make_points(geometry_));
+  // The first file would lack the range that VTK keeps for the next ones.
+  grid_->GetPoints()->GetData()->GetRange(-1);
   set_cells(geometry_, grid_);
   vtkPointData* points = grid_->GetPointData();
   attach<vtkDoubleArray>(points, "displacement", fields_.displacement, 3);
@@ -206,10 +238,10 @@ void VtkFrames::Writer::write(const State& state) {
   for (vtkFieldData* owner : std::initializer_list<vtkFieldData*>{grid_->GetPointData(), grid_->GetCellData()}) {
     for (int i = 0; i < owner->GetNumberOfArrays(); ++i) owner->GetArray(i)->Modified();
   }
+  grid_->GetFieldData()->GetArray("TimeValue")->Modified();
   grid_->Modified();
 
-  const std::string name = fmt::format("frames/frame_{:06d}.vtu", frames_);
-  const std::filesystem::path path = folder_ / name;
+  const std::filesystem::path path = folder_ / "frames" / frame_name(times_.size());
   std::string message;
   vtkNew<vtkCallbackCommand> on_error;
   on_error->SetCallback(keep_message);
@@ -227,9 +259,17 @@ void VtkFrames::Writer::write(const State& state) {
     const std::string reason = error != 0 && error < 20000 ? std::strerror(static_cast<int>(error)) : message;
     throw IoError(fmt::format("cannot write '{}': {}", path.string(), reason));
   }
-  ++frames_;
-  collection_ +=
-      fmt::format("    <DataSet timestep=\"{:.9g}\" group=\"\" part=\"0\" file=\"{}\"/>\n", state.time, name);
+  times_.push_back(state.time);
+  add_to_collection(times_.size() - 1);
+  write_collection();
+}
+
+void VtkFrames::Writer::add_to_collection(std::size_t frame) {
+  collection_ += fmt::format("    <DataSet timestep=\"{:.9g}\" group=\"\" part=\"0\" file=\"frames/{}\"/>\n",
+                             times_[frame], frame_name(frame));
+}
+
+void VtkFrames::Writer::write_collection() const {
   write_text_file(folder_ / "frames.pvd",
                   "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" "
                   "byte_order=\"LittleEndian\">\n  <Collection>\n" +
@@ -257,6 +297,14 @@ void VtkFrames::step(const State& before, const State& after, const StepReport&,
 
 void VtkFrames::finish() {
   if (writer_) writer_->finish();
+}
+
+void VtkFrames::save(Snapshot& snapshot) {
+  if (writer_) writer_->save(snapshot);
+}
+
+void VtkFrames::resume(const Model& model, const State& state, const Snapshot& snapshot) {
+  if (writer_) writer_->resume(model, state, snapshot);
 }
 
 double VtkFrames::seconds() const { return writer_ ? writer_->seconds() : 0; }

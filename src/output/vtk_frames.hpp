@@ -24,6 +24,9 @@ class VtkFrames : public Observer {
   void start(const Model& model, const State& state) override;
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
   void finish() override;
+  void save(Snapshot& snapshot) override;
+  // Drops the frames after the snapshot and goes on.
+  void resume(const Model& model, const State& state, const Snapshot& snapshot) override;
 
   double seconds() const;  // spent in this observer
   int frames() const;

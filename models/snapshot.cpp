@@ -1,0 +1,77 @@
+#include "models/snapshot.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/errors.hpp"
+
+namespace nsframe {
+
+namespace {
+
+constexpr std::size_t impact_size = 6;  // doubles
+
+}  // namespace
+
+const std::vector<double>& Snapshot::array(const std::string& name) const {
+  const auto found = arrays.find(name);
+  if (found == arrays.end()) throw IoError(fmt::format("the checkpoint has no '{}'", name));
+  return found->second;
+}
+
+double Snapshot::number(const std::string& name) const {
+  double value = 0;
+  copy(name, &value, 1);
+  return value;
+}
+
+void Snapshot::copy(const std::string& name, double* values, std::size_t size) const {
+  const std::vector<double>& stored = array(name);
+  if (stored.size() != size) {
+    throw IoError(fmt::format("the checkpoint has {} numbers in '{}', the scene needs {}", stored.size(), name, size));
+  }
+  std::copy(stored.begin(), stored.end(), values);
+}
+
+void save(const State& state, Snapshot& snapshot) {
+  snapshot.put("state.time", state.time);
+  snapshot.put("state.displacement", state.displacement);
+  snapshot.put("state.velocity", state.velocity);
+  snapshot.put("state.acceleration", state.acceleration);
+  snapshot.put("state.internal_force", state.internal_force);
+  snapshot.put("state.history", state.history);
+  snapshot.put("state.impulse", state.impulse);
+}
+
+void restore(State& state, const Snapshot& snapshot) {
+  state.time = snapshot.number("state.time");
+  snapshot.read("state.displacement", state.displacement);
+  snapshot.read("state.velocity", state.velocity);
+  snapshot.read("state.acceleration", state.acceleration);
+  snapshot.read("state.internal_force", state.internal_force);
+  snapshot.read("state.history", state.history);
+  snapshot.read("state.impulse", state.impulse);
+}
+
+void save(const std::string& name, const std::vector<Impact>& impacts, Snapshot& snapshot) {
+  std::vector<double>& values = snapshot.arrays[name];
+  values.clear();
+  values.reserve(impact_size * impacts.size());
+  for (const Impact& impact : impacts) {
+    values.insert(values.end(), {impact.time, double(impact.pair), impact.approach_velocity, impact.impulse,
+                                 impact.rate_before, impact.rate_after});
+  }
+}
+
+std::vector<Impact> restore_impacts(const std::string& name, const Snapshot& snapshot) {
+  const std::vector<double>& values = snapshot.array(name);
+  std::vector<Impact> impacts;
+  for (std::size_t i = 0; i + impact_size <= values.size(); i += impact_size) {
+    const double* const v = values.data() + i;
+    impacts.push_back({v[0], static_cast<int>(v[1]), v[2], v[3], v[4], v[5]});
+  }
+  return impacts;
+}
+
+}  // namespace nsframe
