@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "models/snapshot.hpp"
+
 namespace nsframe {
 namespace {
 
@@ -88,6 +90,19 @@ void DriftTracker::raise(const State& state) {
       drifts_[i].drift[k] = std::max(drifts_[i].drift[k], std::abs(relative) / story.height);
     }
   }
+}
+
+void DriftTracker::save(Snapshot& snapshot) {
+  std::vector<double> values;
+  for (const StoryDrift& drift : drifts_) values.insert(values.end(), {drift.drift.x(), drift.drift.y()});
+  snapshot.put("drifts", values);
+}
+
+void DriftTracker::resume(const Model& model, const State& state, const Snapshot& snapshot) {
+  start(model, state);
+  std::vector<double> values(2 * drifts_.size());
+  snapshot.read("drifts", values);
+  for (std::size_t i = 0; i < drifts_.size(); ++i) drifts_[i].drift = Vector2(values[2 * i], values[2 * i + 1]);
 }
 
 void DriftTracker::step(const State&, const State& after, const StepReport&, const Energy&) { raise(after); }

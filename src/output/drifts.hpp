@@ -16,6 +16,8 @@ class DriftTracker : public Observer {
  public:
   void start(const Model& model, const State& state) override;
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
+  void save(Snapshot& snapshot) override;
+  void resume(const Model& model, const State& state, const Snapshot& snapshot) override;
 
   // Structure by structure, from the lowest story; none for a structure without height.
   const std::vector<StoryDrift>& drifts() const { return drifts_; }

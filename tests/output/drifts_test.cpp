@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include "models/snapshot.hpp"
 #include "output/drifts.hpp"
 #include "tests/output/sample_pair.hpp"
 #include "tests/verification/pair_of_masses.hpp"
@@ -83,4 +84,18 @@ TEST_CASE("without slabs the floors are where mass is, and a structure without h
   const Model pair = build_model(masses, diagnostics);
   tracker.start(pair, sample_state(pair));
   CHECK(tracker.drifts().empty());
+}
+
+TEST_CASE("drifts go on from a snapshot") {
+  const Model model = sample_pair();
+  DriftTracker tracker, resumed;
+  State state = sample_state(model);
+  tracker.start(model, state);
+  Snapshot snapshot;
+  tracker.save(snapshot);
+  state.displacement *= 0.5;
+  resumed.resume(model, state, snapshot);
+  REQUIRE(resumed.drifts().size() == tracker.drifts().size());
+  for (std::size_t i = 0; i < tracker.drifts().size(); ++i)
+    CHECK(resumed.drifts()[i].drift == tracker.drifts()[i].drift);
 }
