@@ -18,9 +18,3 @@ cmake --preset release -DNSFRAME_TESTS=OFF > /dev/null
 cmake --build build --target nsframe --parallel "$(nproc)"
 echo "Running $scene ..."
 build/nsframe run "$scene" -o "$results"
-
-echo
-echo "Results of $example:"
-echo "  $results/frames.pvd     open in ParaView (File > Open, Apply; then Warp By Vector)"
-echo "  $results/summary.json   impacts, peaks, energy, numerical damping"
-echo "  $results/results.h5     histories, for h5py or xarray"
