@@ -94,6 +94,10 @@ void assemble_damping(System& system, const SparseMatrix& stiffness, std::vector
     const BlockRange range = system.assembler.blocks()[i];
     if (range.size() == 0) continue;
     if (damping.kind == DampingKind::rayleigh) {
+      if (damping.frequencies && (*damping.frequencies)[0] == (*damping.frequencies)[1]) {
+        diagnostics.error(damping.at, "Rayleigh damping needs two different frequencies");
+        continue;
+      }
       const auto [mass_factor, stiffness_factor] = rayleigh_factors(damping);
       add(extract_block(system.model.mass, range), mass_factor, range.first);
       add(extract_block(stiffness, range), stiffness_factor, range.first);

@@ -97,6 +97,7 @@ void TimeHistory::advance(const State& committed, State& trial, double h, int ha
     State middle = committed;
     advance(committed, middle, h / 2, halvings + 1);
     advance(middle, trial, h / 2, halvings + 1);
+    trial.impulse += middle.impulse;
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "base/errors.hpp"
 #include "integrators/simulation.hpp"
 #include "tests/support/small_models.hpp"
 
@@ -123,6 +124,17 @@ TEST_CASE("Rayleigh damping has the asked ratios at both frequencies, and less b
   for (int i = 0; i < 3; ++i) {
     CHECK(by_factors.modes()[0].damping_ratio[i] == doctest::Approx(0.5 * (0.2 / w[i] + 1e-4 * w[i])).epsilon(1e-9));
   }
+}
+
+TEST_CASE("Rayleigh damping from two equal frequencies is an error with its place") {
+  DampingDescription damping;
+  damping.at = at(9);
+  damping.kind = DampingKind::rayleigh;
+  damping.frequencies = {2.5, 2.5};
+  damping.frequency_ratios = {0.02, 0.02};
+  const Model model = build(towers(damping, 1));
+  CHECK_THROWS_WITH_AS(Simulation(model, short_run()), doctest::Contains("Rayleigh damping needs two different frequencies"),
+                       InputError);
 }
 
 TEST_CASE("a dashpot adds its own damping to a mode") {
