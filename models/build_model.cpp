@@ -8,13 +8,12 @@
 #include "models/build_contacts.hpp"
 #include "models/build_elements.hpp"
 #include "models/constraints.hpp"
+#include "models/dof_names.hpp"
 #include "models/model.hpp"
 
 namespace nsframe {
 
 namespace {
-
-constexpr std::array<const char*, 6> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 
 // Connected components of the nodes.
 class Components {
@@ -287,7 +286,7 @@ void ModelBuilder::release_unstressed_rotations() {
       } else {
         diagnostics_.error(node_at_[static_cast<std::size_t>(i)],
                            fmt::format("node '{}' is not held in {}: no element, support or mass acts there",
-                                       model_.nodes.id[static_cast<std::size_t>(i)], dof_names[static_cast<std::size_t>(k)]));
+                                       model_.nodes.id[static_cast<std::size_t>(i)], node_dof_names[static_cast<std::size_t>(k)]));
         break;
       }
     }
@@ -356,7 +355,7 @@ void ModelBuilder::set_initial_values(const StructureDescription& structure) {
                                      [&](const FreeDof& dof) { return dof.node == at && dof.direction == item.dof; });
       if (free == model_.dofs.free.end()) {
         diagnostics_.error(item.node.at, fmt::format("{} of node '{}.{}' is not free: its initial value cannot be set",
-                                                     dof_names[static_cast<std::size_t>(item.dof)], structure.name, item.node.name));
+                                                     node_dof_names[static_cast<std::size_t>(item.dof)], structure.name, item.node.name));
         continue;
       }
       values[free - model_.dofs.free.begin()] = item.value;

@@ -3,12 +3,11 @@
 #include <iterator>
 
 #include "app/commands.hpp"
+#include "models/dof_names.hpp"
 
 namespace nsframe::app {
 
 namespace {
-
-constexpr std::array<const char*, 6> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 
 // Matrix Market coordinate format, all entries.
 template <class Matrix>
@@ -58,7 +57,7 @@ std::string dof_table(const Model& model) {
   std::string text = "dof,node,direction\n";
   for (std::size_t i = 0; i < model.dofs.free.size(); ++i) {
     const FreeDof& dof = model.dofs.free[i];
-    text += fmt::format("{},{},{}\n", i + 1, model.nodes.id[static_cast<std::size_t>(dof.node)], dof_names[static_cast<std::size_t>(dof.direction)]);
+    text += fmt::format("{},{},{}\n", i + 1, model.nodes.id[static_cast<std::size_t>(dof.node)], node_dof_names[static_cast<std::size_t>(dof.direction)]);
   }
   return text;
 }

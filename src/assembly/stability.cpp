@@ -4,11 +4,12 @@
 
 #include <cmath>
 
+#include "models/dof_names.hpp"
+
 namespace nsframe {
 
 namespace {
 
-constexpr std::array<const char*, 6> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 // Least eigenvalue of the matrix scaled to unit diagonal: rounding leaves some 1e-15 of a zero, a column of n elements in
 // bending has n^-4 / 2.
 constexpr double singular = 1e-13;
@@ -53,7 +54,7 @@ void check_stability(const Model& model, const SparseMatrix& stiffness, Diagnost
     diagnostics.error(structure.at, fmt::format("structure '{}' is unstable: node '{}' moves in {} without resistance "
                                                 "(a support, a brace or a connection is missing)",
                                                 structure.name, model.nodes.id[static_cast<std::size_t>(dof.node)],
-                                                dof_names[static_cast<std::size_t>(dof.direction)]));
+                                                node_dof_names[static_cast<std::size_t>(dof.direction)]));
   }
 }
 
