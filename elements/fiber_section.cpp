@@ -7,18 +7,6 @@ namespace nsframe {
 
 namespace {
 
-bool same_law(const UniaxialLaw& a, const UniaxialLaw& b) {
-  if (a.index() != b.index()) return false;
-  return std::visit(
-      [&b](const auto& law) {
-        using Law = std::decay_t<decltype(law)>;
-        const auto* first = reinterpret_cast<const double*>(&law);
-        const auto* second = reinterpret_cast<const double*>(&std::get<Law>(b));
-        return std::equal(first, first + sizeof(Law) / sizeof(double), second);
-      },
-      a);
-}
-
 double strain_at(const FiberSection& section, const Vector3& deformation, std::size_t i) {
   return deformation[0] - section.y[i] * deformation[1] + section.z[i] * deformation[2];
 }

@@ -22,9 +22,14 @@ struct Elastic {
     T strain;  // [-], kept so that every law can report where it stands
   };
   History<double> virgin() const { return {0}; }
+  bool is_linear() const { return true; }
   double initial_tangent() const { return E; }
   double yield_strain() const { return std::numeric_limits<double>::infinity(); }
-  void check() const { require_positive(E, "E"); }
+  template <class Visit, class Law>
+  static void visit_parameters(Visit&& visit, Law& law) {
+    using namespace parameter;
+    visit(required(stress("E", "elastic modulus; of a spring's law: stiffness in N/m or N m/rad", range::positive)), law.E);
+  }
 };
 
 }  // namespace nsframe

@@ -29,10 +29,13 @@ struct ElasticPP {
   History<double> virgin() const { return {0, 0}; }
   double initial_tangent() const { return E; }
   double yield_strain() const { return std::min(epsyP, -compression_yield()); }
-  void check() const {
-    require_positive(E, "E");
-    require_positive(epsyP, "epsyP");
-    require(epsyN <= 0, "epsyN must be negative, or 0 for -epsyP");
+  template <class Visit, class Law>
+  static void visit_parameters(Visit&& visit, Law& law) {
+    using namespace parameter;
+    visit(required(stress("E", "elastic modulus", range::positive)), law.E);
+    visit(required(strain("epsyP", "yield strain in tension", range::positive)), law.epsyP);
+    visit(strain("epsyN", "yield strain in compression, negative; 0: -epsyP", range::non_positive), law.epsyN);
+    visit(strain("eps0", "initial strain"), law.eps0);
   }
 };
 

@@ -1,14 +1,20 @@
-// What every uniaxial law shares: the form of its answer and the checks of its parameters.
-//
-// A law is a struct of parameters with `name`, `History<T>` (members of type T only), `virgin()`, `initial_tangent()`,
-// `yield_strain()` and `check()`, and a free function template respond(law, strain, committed) written for any number
-// type T of materials/number.hpp: `double` gives the scalar definition, `Lanes` the SIMD kernel of fiber sections.
-// The function stands in HWY_NAMESPACE, because it is compiled once for every instruction set.
+// What every uniaxial law shares: the form of its answer. A law is a struct of parameters with
+//   name                    as scene files call it
+//   visit_parameters()      its parameters with text, quantity and range (materials/parameter.hpp)
+//   check()                 optional: rules across parameters; throws std::invalid_argument by require(), the message
+//                           beginning with the name of a parameter
+//   History<T>              what a material point remembers; members of type T only
+//   virgin()                the history of a point that was never strained
+//   initial_tangent(), yield_strain()
+//   is_linear()             optional: true when stress is proportional to strain for ever
+// and a free function template respond(law, strain, committed) written for any number type T of materials/number.hpp:
+// `double` gives the scalar definition, `Lanes` the SIMD kernel of fiber sections. The function stands in
+// HWY_NAMESPACE, because it is compiled once for every instruction set. Registered in materials/laws.hpp.
 #pragma once
 
 #include <limits>
-#include <stdexcept>
-#include <string>
+
+#include "materials/parameter.hpp"
 
 namespace nsframe {
 
@@ -19,11 +25,8 @@ struct Response {
   typename Law::template History<T> history; // at the trial strain
 };
 
-inline void require(bool valid, const std::string& rule) {
-  if (!valid) throw std::invalid_argument(rule);
-}
-inline void require_positive(double value, const std::string& parameter) {
-  require(value > 0, parameter + " must be positive");
-}
+// Doubles that a point of this law remembers.
+template <class Law>
+constexpr int history_doubles = static_cast<int>(sizeof(typename Law::template History<double>) / sizeof(double));
 
 }  // namespace nsframe

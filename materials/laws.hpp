@@ -1,5 +1,23 @@
-// Every uniaxial law. No include guard on purpose: the SIMD kernel includes it once for every instruction set.
+// The registry of uniaxial laws: a new one is its header (law.hpp says what it holds), its two entries here and a test.
+// The includes are without guard on purpose: the SIMD kernel reads them once for every instruction set.
 #include "materials/elastic.hpp"
 #include "materials/elastic_pp.hpp"
 #include "materials/steel01.hpp"
 #include "materials/steel02.hpp"
+
+#ifndef NSFRAME_MATERIALS_LAWS
+#define NSFRAME_MATERIALS_LAWS
+
+#include <variant>
+
+namespace nsframe {
+
+// The order is that of the reference of scene files.
+using UniaxialLaw = std::variant<  //
+    Elastic,                       //
+    ElasticPP,                     //
+    Steel01,                       //
+    Steel02>;
+
+}  // namespace nsframe
+#endif

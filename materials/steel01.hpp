@@ -28,10 +28,12 @@ struct Steel01 {
   History<double> virgin() const { return {0, 0}; }
   double initial_tangent() const { return E; }
   double yield_strain() const { return fy / E; }
-  void check() const {
-    require_positive(fy, "fy");
-    require_positive(E, "E");
-    require(b < 1, "b must be below 1");
+  template <class Visit, class Law>
+  static void visit_parameters(Visit&& visit, Law& law) {
+    using namespace parameter;
+    visit(required(stress("fy", "yield stress", range::positive)), law.fy);
+    visit(required(stress("E", "elastic modulus", range::positive)), law.E);
+    visit(number("b", "hardening ratio", range::below_one), law.b);
   }
 };
 

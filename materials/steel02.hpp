@@ -47,15 +47,20 @@ struct Steel02 {
   History<double> virgin() const { return {sigInit / E, sigInit, -fy / E, fy / E, 0, 0, 0, 0, 0, 0}; }
   double initial_tangent() const { return E; }
   double yield_strain() const { return fy / E; }
-  void check() const {
-    require_positive(fy, "fy");
-    require_positive(E, "E");
-    require(b < 1, "b must be below 1");
-    require_positive(R0, "R0");
-    require(cR1 >= 0 && cR1 < 1, "cR1 must lie in [0, 1)");
-    require_positive(cR2, "cR2");
-    require_positive(a2, "a2");
-    require_positive(a4, "a4");
+  template <class Visit, class Law>
+  static void visit_parameters(Visit&& visit, Law& law) {
+    using namespace parameter;
+    visit(required(stress("fy", "yield stress", range::positive)), law.fy);
+    visit(required(stress("E", "elastic modulus", range::positive)), law.E);
+    visit(number("b", "hardening ratio", range::below_one), law.b);
+    visit(number("R0", "curvature of the first loading", range::positive), law.R0);
+    visit(number("cR1", "decay of the curvature with plastic excursion", {0, 1, false, true}), law.cR1);
+    visit(number("cR2", "the same", range::positive), law.cR2);
+    visit(number("a1", "isotropic hardening in compression"), law.a1);
+    visit(number("a2", "its excursion in yield strains", range::positive), law.a2);
+    visit(number("a3", "isotropic hardening in tension"), law.a3);
+    visit(number("a4", "its excursion in yield strains", range::positive), law.a4);
+    visit(stress("sigInit", "initial stress"), law.sigInit);
   }
 };
 

@@ -1,17 +1,24 @@
 #include "materials/uniaxial.hpp"
 
-#include <bit>
+#include <algorithm>
 #include <type_traits>
 
 namespace nsframe {
 
 namespace {
 
+void append(std::vector<double>& values, double value) { values.push_back(value); }
+
 template <class Law>
 using ScalarHistory = typename Law::template History<double>;
 
+// The values of a law's parameters as one comparable list.
 template <class Law>
-constexpr int history_doubles = static_cast<int>(sizeof(ScalarHistory<Law>) / sizeof(double));
+auto parameter_values(const Law& law) {
+  std::vector<double> values;
+  Law::visit_parameters([&values](const Parameter&, const auto& value) { append(values, value); }, law);
+  return values;
+}
 
 }  // namespace
 
@@ -47,9 +54,31 @@ double initial_tangent(const UniaxialLaw& law) {
 double yield_strain(const UniaxialLaw& law) {
   return std::visit([](const auto& l) { return l.yield_strain(); }, law);
 }
-bool is_linear(const UniaxialLaw& law) { return std::holds_alternative<Elastic>(law); }
+bool is_linear(const UniaxialLaw& law) {
+  return std::visit(
+      [](const auto& l) {
+        if constexpr (requires { l.is_linear(); }) return l.is_linear();
+        return false;
+      },
+      law);
+}
 void check_parameters(const UniaxialLaw& law) {
-  std::visit([](const auto& l) { l.check(); }, law);
+  std::visit([](const auto& l) { check_parameters_of(l); }, law);
+}
+
+bool same_law(const UniaxialLaw& a, const UniaxialLaw& b) {
+  if (a.index() != b.index()) return false;
+  return std::visit(
+      [&b](const auto& law) {
+        return parameter_values(law) == parameter_values(std::get<std::decay_t<decltype(law)>>(b));
+      },
+      a);
+}
+
+std::vector<std::string> law_names() {
+  std::vector<std::string> names;
+  for_each_law([&names](const auto& law) { names.emplace_back(law.name); });
+  return names;
 }
 
 }  // namespace nsframe

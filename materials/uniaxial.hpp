@@ -1,15 +1,13 @@
-// The registry of uniaxial laws. A new law is one header (law.hpp says what it holds), its line in laws.hpp and in
-// UniaxialLaw, its fields in the scene schema, and one test.
+// Any uniaxial law behind one set of functions. The laws are listed in laws.hpp.
 #pragma once
 
 #include <string>
-#include <variant>
+#include <utility>
+#include <vector>
 
 #include "materials/laws.hpp"
 
 namespace nsframe {
-
-using UniaxialLaw = std::variant<Elastic, ElasticPP, Steel01, Steel02>;
 
 struct UniaxialPoint {
   double stress = 0;   // [Pa] (or force, in a spring)
@@ -35,7 +33,20 @@ double yield_strain(const UniaxialLaw& law);
 // True when the law's stress is proportional to strain for ever.
 bool is_linear(const UniaxialLaw& law);
 
-// Throws std::invalid_argument that names the first parameter outside its range.
+// Throws std::invalid_argument that begins with the name of the first parameter outside its range.
 void check_parameters(const UniaxialLaw& law);
+
+// True when both are the same law with the same parameters.
+bool same_law(const UniaxialLaw& a, const UniaxialLaw& b);
+
+// Calls visit(const Law&) with a default-made law of every kind, in the order of the registry.
+template <class Visit>
+void for_each_law(Visit&& visit) {
+  [&]<std::size_t... index>(std::index_sequence<index...>) {
+    (visit(std::variant_alternative_t<index, UniaxialLaw>{}), ...);
+  }(std::make_index_sequence<std::variant_size_v<UniaxialLaw>>());
+}
+
+std::vector<std::string> law_names();
 
 }  // namespace nsframe

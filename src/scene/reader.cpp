@@ -266,14 +266,13 @@ void Reader::read(const Value& value, const Field& field, MaterialTable& out) {
   const toml::node* node = value.single();
   if (!node || !node->is_table()) return wrong_type(value, field, "a table");
   const toml::table& table = *node->as_table();
-  const std::vector<std::string> laws{Elastic::name, ElasticPP::name, Steel01::name, Steel02::name};
+  const std::vector<std::string> laws = law_names();
   const toml::node* law = table.get("law");
   if (!law) return error(value.at, "missing key 'law'; known: " + fmt::format("{}", fmt::join(laws, ", ")));
   const std::string name = name_of({{law}, std::nullopt, location(law->source())}, {"law", ""}, laws);
-  if (name == Elastic::name) read_law<Elastic>(table, value.at, out.law);
-  if (name == ElasticPP::name) read_law<ElasticPP>(table, value.at, out.law);
-  if (name == Steel01::name) read_law<Steel01>(table, value.at, out.law);
-  if (name == Steel02::name) read_law<Steel02>(table, value.at, out.law);
+  for_each_law([&](const auto& kind) {
+    if (name == kind.name) read_law<std::decay_t<decltype(kind)>>(table, value.at, out.law);
+  });
 }
 
 void Reader::read(const Value& value, const Field& field, SectionTable& out) {

@@ -176,10 +176,9 @@ std::string scene_reference() {
   out +=
       "\nTop level: `title`, `[material.NAME]`, `[section.NAME]`, `[structure.NAME]`, `[[contact]]`, `[gravity]`, "
       "`[motion]` or `[[motion]]`, `[analysis]`, `[output]`.\n";
-  out += chapter<Elastic>("[material.NAME], law = \"Elastic\"");
-  out += chapter<ElasticPP>("[material.NAME], law = \"ElasticPP\"");
-  out += chapter<Steel01>("[material.NAME], law = \"Steel01\"");
-  out += chapter<Steel02>("[material.NAME], law = \"Steel02\"");
+  for_each_law([&out](const auto& law) {
+    out += chapter<std::decay_t<decltype(law)>>(fmt::format("[material.NAME], law = \"{}\"", law.name));
+  });
   out += chapter<ShapeSection>("[section.NAME] by a rolled shape", "Depth along local y.");
   out += chapter<ConstantsSection>("[section.NAME] by constants");
   out += chapter<PatchSection>("[section.NAME] by fibers", "Either `GJ`, or `G` and `J`.");

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "materials/parameter.hpp"
 #include "models/analysis.hpp"
 #include "scene/field.hpp"
 #include "scene/schema_names.hpp"
@@ -38,41 +39,19 @@ inline constexpr Range count{1, 1000};
 // --- materials
 // --------------------------------------------------------------------------------------------------------
 
-template <class Archive>
-void visit(Archive& ar, Elastic& law) {
-  ar(required("E", "elastic modulus; of a spring's law: stiffness in N/m or N m/rad", dimension::stress,
-              range::positive),
-     law.E);
+// In a scene "stress" and "strain" of a spring's law are plain numbers: its force and displacement, or moment and angle.
+constexpr Dimension dimension_of(Measure measure) {
+  return measure == Measure::stress ? dimension::stress : dimension::none;
 }
 
-template <class Archive>
-void visit(Archive& ar, ElasticPP& law) {
-  ar(required("E", "elastic modulus", dimension::stress, range::positive), law.E);
-  ar(required("epsyP", "yield strain in tension", {}, range::positive), law.epsyP);
-  ar(Field{"epsyN", "yield strain in compression, negative; 0: -epsyP", {}, {-range::infinity, 0}}, law.epsyN);
-  ar(Field{"eps0", "initial strain"}, law.eps0);
-}
-
-template <class Archive>
-void visit(Archive& ar, Steel01& law) {
-  ar(required("fy", "yield stress", dimension::stress, range::positive), law.fy);
-  ar(required("E", "elastic modulus", dimension::stress, range::positive), law.E);
-  ar(Field{"b", "hardening ratio", {}, range::below_one}, law.b);
-}
-
-template <class Archive>
-void visit(Archive& ar, Steel02& law) {
-  ar(required("fy", "yield stress", dimension::stress, range::positive), law.fy);
-  ar(required("E", "elastic modulus", dimension::stress, range::positive), law.E);
-  ar(Field{"b", "hardening ratio", {}, range::below_one}, law.b);
-  ar(Field{"R0", "curvature of the first loading", {}, range::positive}, law.R0);
-  ar(Field{"cR1", "decay of the curvature with plastic excursion", {}, {0, 1, false, true}}, law.cR1);
-  ar(Field{"cR2", "the same", {}, range::positive}, law.cR2);
-  ar(Field{"a1", "isotropic hardening in compression"}, law.a1);
-  ar(Field{"a2", "its excursion in yield strains", {}, range::positive}, law.a2);
-  ar(Field{"a3", "isotropic hardening in tension"}, law.a3);
-  ar(Field{"a4", "its excursion in yield strains", {}, range::positive}, law.a4);
-  ar(Field{"sigInit", "initial stress", dimension::stress}, law.sigInit);
+// The laws list their parameters themselves (materials/parameter.hpp).
+template <class Archive, HasParameters Law>
+void visit(Archive& ar, Law& law) {
+  Law::visit_parameters(
+      [&ar](const Parameter& p, auto& value) {
+        ar(Field{p.name, p.text, dimension_of(p.measure), p.range, p.presence, p.default_text}, value);
+      },
+      law);
 }
 
 // --- sections

@@ -1,4 +1,4 @@
-#include "scene/field.hpp"
+#include "base/range.hpp"
 
 #include <fmt/format.h>
 
