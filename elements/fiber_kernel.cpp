@@ -53,8 +53,14 @@ HWY_NOINLINE void add_block(const Law& law, const FiberSection& section, const F
 void respond_target(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial,
                     SectionResponse& sum) {
   for (const FiberBlock& block : section.blocks) {
-    std::visit([&](const auto& law) HWY_ATTR { add_block(law, section, block, deformation, committed, trial, sum); },
-               block.law);
+    std::visit(
+        [&](const auto& law) HWY_ATTR {
+          if constexpr (PlainLaw<std::decay_t<decltype(law)>>)
+            add_block(law, section, block, deformation, committed, trial, sum);
+          else
+            add_wrapped_block(section, block, deformation, committed, trial, sum);
+        },
+        block.law);
   }
 }
 

@@ -25,8 +25,6 @@ void gather(const double* from, int stride, int components, double* to) {
   for (int k = 0; k < components; ++k) to[k] = from[k * stride];
 }
 
-constexpr int max_history = 64;  // components of any law; checked when a section is built
-
 }  // namespace
 
 FiberSection::FiberSection(const std::vector<Fiber>& all, double gj) : torsion_stiffness(gj) {
@@ -60,6 +58,29 @@ void initialize_history(const FiberSection& section, double* history) {
     for (int k = 0; k < history_size(block.law); ++k) {
       std::fill_n(history + block.history_begin + k * block.count, block.count, virgin[k]);
     }
+  }
+}
+
+void add_wrapped_block(const FiberSection& section, const FiberBlock& block, const Vector3& deformation,
+                       const double* committed, double* trial, SectionResponse& sum) {
+  double strain[wrapped_points], stress[wrapped_points], tangent[wrapped_points];
+  for (int begin = 0; begin < block.fibers; begin += wrapped_points) {
+    const int count = std::min(wrapped_points, block.fibers - begin), history = block.history_begin + begin;
+    const auto first = static_cast<std::size_t>(block.first + begin);
+    for (int i = 0; i < count; ++i) strain[i] = strain_at(section, deformation, first + static_cast<std::size_t>(i));
+    respond_points_simd(block.law,
+                        {count, strain, committed + history, trial + history, block.count, stress, tangent});
+    for (int i = 0; i < count; ++i) {
+      const std::size_t at = first + static_cast<std::size_t>(i);
+      const Vector3 lever(1.0, -section.y[at], section.z[at]);
+      sum.force += stress[i] * section.area[at] * lever;
+      sum.tangent += tangent[i] * section.area[at] * lever * lever.transpose();
+    }
+  }
+  // the padding is not evaluated, but written, so that states are the same bits in every run
+  for (int k = 0; k < history_size(block.law); ++k) {
+    const int row = block.history_begin + k * block.count;
+    std::copy(committed + row + block.fibers, committed + row + block.count, trial + row + block.fibers);
   }
 }
 
@@ -104,7 +125,7 @@ bool has_yielded(const FiberSection& section, const Vector3& deformation, const 
     gather(committed + begin, stride, history_size(block.law), before);
     const double strain = strain_at(section, deformation, i);
     const double stress = respond(block.law, strain, before, after).stress;
-    yielded = std::abs(strain - stress / initial_tangent(block.law)) > 0.1 * yield_strain(block.law);
+    yielded = has_yielded(block.law, strain, stress);
   });
   return yielded;
 }

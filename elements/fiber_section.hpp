@@ -49,6 +49,10 @@ void initialize_history(const FiberSection& section, double* history);
 SectionResponse respond(const FiberSection& section, const Vector3& deformation, const double* committed,
                         double* trial);
 
+// A block's share of it when its law is a wrapper: the law on arrays (wrapper.hpp), then the sums.
+void add_wrapped_block(const FiberSection& section, const FiberBlock& block, const Vector3& deformation,
+                       const double* committed, double* trial, SectionResponse& sum);
+
 // The same fiber by fiber in plain doubles: the definition that the kernel is tested against.
 SectionResponse respond_scalar(const FiberSection& section, const Vector3& deformation, const double* committed,
                                double* trial);

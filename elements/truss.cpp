@@ -47,8 +47,8 @@ std::vector<SectionResult> Trusses::sections(int element, const Vector12& displa
   result.deformation[0] = e.frame.compatibility.row(0).dot(displacement) / e.frame.length;
   result.force[0] = axial(e, displacement, history, scratch.data()).stress;
   result.peak_strain_ratio = std::abs(result.deformation[0]) / yield_strain(e.law);
-  const double plastic = result.deformation[0] - (result.force[0] - e.pretension) / (e.area * initial_tangent(e.law));
-  result.yielded = kind_ != Kind::cable && std::abs(plastic) > 0.1 * yield_strain(e.law) ? 1 : 0;
+  const double stress = (result.force[0] - e.pretension) / e.area;
+  result.yielded = kind_ != Kind::cable && has_yielded(e.law, result.deformation[0], stress) ? 1 : 0;
   return {result};
 }
 

@@ -1,5 +1,7 @@
 // What every uniaxial law shares: the form of its answer. A law is a struct of parameters with
-//   name                    as scene files call it
+//   name                    as scene files call it; laws may share a name: a scene gets the first that knows all its
+//                           keys, so that a rarely used option doesn't cost every point its history
+//   variety                 optional: what tells it from others of its name, for the reference
 //   visit_parameters()      its parameters with text, quantity and range (materials/parameter.hpp)
 //   check()                 optional: rules across parameters; throws std::invalid_argument by require(), the message
 //                           beginning with the name of a parameter
@@ -7,6 +9,7 @@
 //   virgin()                the history of a point that was never strained
 //   initial_tangent(), yield_strain()
 //   is_linear()             optional: true when stress is proportional to strain for ever
+//   has_yielded(strain, stress)   optional: in place of the plastic strain against the yield strain
 // and a free function template respond(law, strain, committed) written for any number type T of materials/number.hpp:
 // `double` gives the scalar definition, `Lanes` the SIMD kernel of fiber sections. The function stands in
 // HWY_NAMESPACE, because it is compiled once for every instruction set. Registered in materials/laws.hpp.

@@ -2,8 +2,18 @@
 // The includes are without guard on purpose: the SIMD kernel reads them once for every instruction set.
 #include "materials/elastic.hpp"
 #include "materials/elastic_pp.hpp"
+#include "materials/elastic_pp_gap.hpp"
+#include "materials/ent.hpp"
+#include "materials/hardening.hpp"
 #include "materials/steel01.hpp"
+#include "materials/steel01_isotropic.hpp"
 #include "materials/steel02.hpp"
+// wrappers
+#include "materials/fatigue.hpp"
+#include "materials/initial.hpp"
+#include "materials/min_max.hpp"
+#include "materials/parallel.hpp"
+#include "materials/series.hpp"
 
 #ifndef NSFRAME_MATERIALS_LAWS
 #define NSFRAME_MATERIALS_LAWS
@@ -16,8 +26,18 @@ namespace nsframe {
 using UniaxialLaw = std::variant<  //
     Elastic,                       //
     ElasticPP,                     //
+    ElasticPPGap,                  //
+    ENT,                           //
+    Hardening,                     //
     Steel01,                       //
-    Steel02>;
+    Steel01Isotropic,              //
+    Steel02,                       //
+    Parallel,                      //
+    Series,                        //
+    MinMax,                        //
+    InitStrain,                    //
+    InitStress,                    //
+    Fatigue>;
 
 }  // namespace nsframe
 #endif

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/range.hpp"
 
@@ -65,6 +66,10 @@ inline void require_in_range(const Parameter& p, double value) {
 template <class Value>
 void require_in_range(const Parameter& p, const std::optional<Value>& value) {
   if (value) require_in_range(p, *value);
+}
+template <class Value>
+void require_in_range(const Parameter& p, const std::vector<Value>& values) {
+  for (const Value& value : values) require_in_range(p, value);
 }
 inline void require_in_range(const Parameter&, bool) {}
 

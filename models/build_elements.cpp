@@ -27,7 +27,7 @@ bool couples(const FiberSection& section) {
   return coupled(0, 1) || coupled(0, 2) || coupled(1, 2);
 }
 
-Library::Section resolve(const SectionDescription& section, const std::map<std::string, UniaxialLaw>& materials,
+Library::Section resolve(const SectionDescription& section, const Materials& materials,
                          Diagnostics& diagnostics) {
   Library::Section resolved{&section, {}, nullptr};
   if (const auto* elastic = std::get_if<ElasticSection>(&section.kind)) {
@@ -78,16 +78,7 @@ const typename Table::mapped_type* find(const Table& table, const Reference& ref
 
 Library build_library(const ModelDescription& description, Diagnostics& diagnostics) {
   Library library;
-  for (const MaterialDescription& material : description.materials) {
-    if (!library.materials.emplace(material.name, material.law).second) {
-      diagnostics.error(material.at, fmt::format("material '{}' is defined twice", material.name));
-    }
-    try {
-      check_parameters(material.law);
-    } catch (const std::invalid_argument& problem) {
-      diagnostics.error(material.at, fmt::format("material '{}': {}", material.name, problem.what()));
-    }
-  }
+  library.materials = resolve_materials(description.materials, diagnostics);
   for (const SectionDescription& section : description.sections) {
     if (!library.sections.emplace(section.name, resolve(section, library.materials, diagnostics)).second) {
       diagnostics.error(section.at, fmt::format("section '{}' is defined twice", section.name));

@@ -10,6 +10,7 @@
 #include "elements/element_group.hpp"
 #include "elements/fiber_section.hpp"
 #include "models/description.hpp"
+#include "models/materials.hpp"
 
 namespace nsframe {
 
@@ -20,7 +21,7 @@ struct Library {
     ElasticSection elastic;                      // of a fiber section: from its initial tangent
     std::shared_ptr<const FiberSection> fibers;  // null for an elastic section
   };
-  std::map<std::string, UniaxialLaw> materials;
+  Materials materials;
   std::map<std::string, Section> sections;
 };
 

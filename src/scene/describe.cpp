@@ -12,16 +12,16 @@ namespace {
 
 // Shear modulus by Poisson's ratio from a material of the scene; 0 when there is none of that name, which
 // build_model() reports.
-double shear_modulus(const std::vector<MaterialTable>& materials, const std::string& name, double poisson) {
-  const auto found = std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == name; });
-  return found == materials.end() ? 0 : initial_tangent(found->law) / (2 * (1 + poisson));
+double shear_modulus(const Materials& materials, const std::string& name, double poisson) {
+  const auto found = materials.find(name);
+  return found == materials.end() ? 0 : initial_tangent(found->second) / (2 * (1 + poisson));
 }
 
 SectionOutline rectangle(double y0, double y1, double z0, double z1) {
   return {{y0, z0}, {y1, z0}, {y1, z1}, {y0, z1}};
 }
 
-void describe(const ShapeSection& section, const std::vector<MaterialTable>& materials, SectionDescription& out) {
+void describe(const ShapeSection& section, const Materials& materials, SectionDescription& out) {
   const CatalogueShape* shape = find_shape(section.shape.name);
   FiberSectionDescription fibers;
   if (shape) {
@@ -34,7 +34,7 @@ void describe(const ShapeSection& section, const std::vector<MaterialTable>& mat
   out.kind = std::move(fibers);
 }
 
-void describe(const ConstantsSection& section, const std::vector<MaterialTable>&, SectionDescription& out) {
+void describe(const ConstantsSection& section, const Materials&, SectionDescription& out) {
   ElasticSection constants = section.constants;
   constants.G = section.G.value_or(constants.E / (2 * (1 + section.poisson.value_or(0))));
   out.kind = constants;
@@ -43,7 +43,7 @@ void describe(const ConstantsSection& section, const std::vector<MaterialTable>&
 }
 
 // The outline is the rectangle around all patches.
-void describe(const PatchSection& section, const std::vector<MaterialTable>&, SectionDescription& out) {
+void describe(const PatchSection& section, const Materials&, SectionDescription& out) {
   FiberSectionDescription fibers;
   Vector2 low = Vector2::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const PatchTable& patch : section.patches) {
@@ -87,7 +87,7 @@ std::optional<MotionDescription> describe(const MotionTable& motion, const std::
 
 }  // namespace
 
-SectionDescription describe(const SectionTable& section, const std::vector<MaterialTable>& materials) {
+SectionDescription describe(const SectionTable& section, const Materials& materials) {
   SectionDescription out;
   out.name = section.name;
   out.at = section.at;
@@ -126,7 +126,12 @@ void describe_model(Scene& scene, Diagnostics& diagnostics) {
   ModelDescription& model = scene.model;
   model = {};
   for (const MaterialTable& m : scene.tables.materials) model.materials.push_back({m.name, m.at, m.law});
-  for (const SectionTable& s : scene.tables.sections) model.sections.push_back(describe(s, scene.tables.materials));
+  // build_model() finds the same errors again and reports them
+  Diagnostics unreported;
+  const Materials materials = resolve_materials(model.materials, unreported);
+  if (unreported.empty())
+    for (MaterialDescription& material : model.materials) material.law = materials.at(material.name);
+  for (const SectionTable& s : scene.tables.sections) model.sections.push_back(describe(s, materials));
   for (const StructureTable& structure : scene.tables.structures) {
     if (const auto* frame = std::get_if<StoryFrameTable>(&structure); frame && !faults(frame->frame).empty()) {
       // Reported where it was read; the name stays known to contacts.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/diagnostics.hpp"
+#include "models/materials.hpp"
 #include "scene/scene.hpp"
 
 namespace nsframe {
@@ -13,7 +14,7 @@ namespace nsframe {
 // and reads the records.
 void describe_model(Scene& scene, Diagnostics& diagnostics);
 
-SectionDescription describe(const SectionTable& section, const std::vector<MaterialTable>& materials);
+SectionDescription describe(const SectionTable& section, const Materials& materials);
 StructureDescription describe(const ExplicitStructure& structure);
 StructureDescription describe(const StoryFrameTable& frame);
 DampingDescription describe(const DampingTable& damping);

@@ -260,6 +260,26 @@ void Reader::read_law(const toml::table& table, const Location& at, UniaxialLaw&
   }
 }
 
+namespace {
+
+// Place in the registry of the first law of this name that knows all keys of the table; else of the last of this name.
+std::size_t law_of(const std::string& name, const toml::table& table) {
+  std::size_t i = 0, found = std::variant_size_v<UniaxialLaw>;
+  bool complete = false;
+  for_each_law([&](auto law) {
+    if (law.name == name && !complete) {
+      std::size_t known = table.contains("law") ? 1 : 0;
+      law.visit_parameters([&](const Parameter& p, auto&) { known += table.contains(p.name) ? 1 : 0; }, law);
+      complete = known == table.size();
+      found = i;
+    }
+    ++i;
+  });
+  return found;
+}
+
+}  // namespace
+
 void Reader::read(const Value& value, const Field& field, MaterialTable& out) {
   out.name = value.text.value_or("");
   out.at = value.at;
@@ -270,8 +290,10 @@ void Reader::read(const Value& value, const Field& field, MaterialTable& out) {
   const toml::node* law = table.get("law");
   if (!law) return error(value.at, "missing key 'law'; known: " + fmt::format("{}", fmt::join(laws, ", ")));
   const std::string name = name_of({{law}, std::nullopt, location(law->source())}, {"law", ""}, laws);
-  for_each_law([&](const auto& kind) {
-    if (name == kind.name) read_law<std::decay_t<decltype(kind)>>(table, value.at, out.law);
+  const std::size_t kind = law_of(name, table);
+  std::size_t i = 0;
+  for_each_law([&](const auto& law_kind) {
+    if (i++ == kind) read_law<std::decay_t<decltype(law_kind)>>(table, value.at, out.law);
   });
 }
 

@@ -55,6 +55,7 @@ class Reader {
   void read(const Value& value, const Field& field, bool& out);
   void read(const Value& value, const Field& field, std::string& out);
   void read(const Value& value, const Field& field, Reference& out);
+  void read(const Value& value, const Field& field, InnerLaw& out) { read(value, field, out.reference); }
   void read(const Value& value, const Field& field, Direction& out);
   void read(const Value& value, const Field& field, DofSet& out);
   void read(const Value& value, const Field& field, Vector3& out);

@@ -21,6 +21,7 @@ std::string kind_of(const Field&, const int*) { return "whole number"; }
 std::string kind_of(const Field&, const bool*) { return "true, false"; }
 std::string kind_of(const Field&, const std::string*) { return "text"; }
 std::string kind_of(const Field&, const Reference*) { return "name"; }
+std::string kind_of(const Field&, const InnerLaw*) { return "name"; }
 std::string kind_of(const Field&, const Direction*) { return "\"x\", \"-y\" ... or vector"; }
 std::string kind_of(const Field&, const DofSet*) { return "DOFs"; }
 std::string kind_of(const Field& field, const Vector3*) { return number_kind(field) + ", three"; }
@@ -177,7 +178,9 @@ std::string scene_reference() {
       "\nTop level: `title`, `[material.NAME]`, `[section.NAME]`, `[structure.NAME]`, `[[contact]]`, `[gravity]`, "
       "`[motion]` or `[[motion]]`, `[analysis]`, `[output]`.\n";
   for_each_law([&out](const auto& law) {
-    out += chapter<std::decay_t<decltype(law)>>(fmt::format("[material.NAME], law = \"{}\"", law.name));
+    std::string variety;
+    if constexpr (requires { law.variety; }) variety = fmt::format(", {}", law.variety);
+    out += chapter<std::decay_t<decltype(law)>>(fmt::format("[material.NAME], law = \"{}\"{}", law.name, variety));
   });
   out += chapter<ShapeSection>("[section.NAME] by a rolled shape", "Depth along local y.");
   out += chapter<ConstantsSection>("[section.NAME] by constants");

@@ -24,6 +24,7 @@ class ValueWriter {
   std::string write(bool value) const { return value ? "true" : "false"; }
   std::string write(const std::string& value) const { return toml_text(value); }
   std::string write(const Reference& value) const { return value.name.empty() ? "" : toml_name(value); }
+  std::string write(const InnerLaw& value) const { return write(value.reference); }
   std::string write(const Direction& value) const;
   std::string write(const DofSet& value) const;
   std::string write(const Vector3& value) const;
@@ -44,7 +45,7 @@ class ValueWriter {
   template <class T>
   std::string write(const std::vector<T>& values) const {
     if (values.empty()) return "";
-    if constexpr (!std::is_class_v<T> || std::is_same_v<T, Reference>)
+    if constexpr (!std::is_class_v<T> || std::is_same_v<T, Reference> || std::is_same_v<T, InnerLaw>)
       if (values.size() == 1) return write(values.front());
     return list(values);
   }
@@ -61,6 +62,7 @@ class ValueWriter {
   std::string list(const List& values) const {
     constexpr bool rows = std::is_class_v<typename List::value_type> &&
                           !std::is_same_v<typename List::value_type, Reference> &&
+                          !std::is_same_v<typename List::value_type, InnerLaw> &&
                           !std::is_same_v<typename List::value_type, std::string> &&
                           !std::is_same_v<typename List::value_type, std::vector<double>>;
     std::string out = "[";

@@ -54,6 +54,9 @@ std::vector<Case> all_elements() {
     truss->add(nodes, "t", frame, steel, 2e-4, 0);
     cases.push_back({"truss" + suffix, std::move(truss), !p_delta});
   }
+  auto wrapped = std::make_unique<ForceBeams>(false, 5);
+  wrapped->add(nodes, "w", frame, rectangle(Parallel{{inner(steel), inner(InitStrain{inner(ENT{1e9}), 1e-4})}}), {});
+  cases.push_back({"force-based, wrapped", std::move(wrapped), false});
   auto cable = std::make_unique<Trusses>(Trusses::Kind::cable, false);
   cable->add(nodes, "c", frame, Elastic{160e9}, 1e-4, 2e3);
   cases.push_back({"cable", std::move(cable), false});
@@ -61,6 +64,8 @@ std::vector<Case> all_elements() {
   properties.axes = frame.axes;
   properties.stiffness << 1e6, 2e6, 3e6, 4e4, 5e4, 6e4;
   properties.law[1] = Steel01{3e3, 2e6, 0.02};
+  properties.law[2] = Series{{inner(Steel01{2e3, 1e6, 0.05}), inner(Elastic{3e6})}};
+  properties.law[4] = MinMax{inner(Elastic{5e4}), -0.1, 0.1};
   auto spring = std::make_unique<Springs>(false);
   spring->add(nodes, "s", properties);
   cases.push_back({"spring", std::move(spring), false});

@@ -13,7 +13,9 @@ namespace {
 
 std::vector<Fiber> mixed_fibers() {
   const std::vector<UniaxialLaw> laws{Elastic{30e9}, ElasticPP{210e9, 0.00112, -0.0009, 1e-4}, Steel01{235e6, 210e9, 0.01},
-                                      Steel02{235e6, 210e9, 0.01}, Steel02{355e6, 205e9, 0.02, 18.5, 0.925, 0.15, 0.04, 1, 0.02, 1, 20e6}};
+                                      Steel02{235e6, 210e9, 0.01}, Steel02{355e6, 205e9, 0.02, 18.5, 0.925, 0.15, 0.04, 1, 0.02, 1, 20e6},
+                                      MinMax{inner(Steel02{235e6, 210e9, 0.01}), -0.01, 0.008}, InitStress{inner(Steel02{235e6, 210e9, 0.01}), 5e7},
+                                      Fatigue{inner(Parallel{{inner(Steel01{235e6, 210e9, 0.01}), inner(ENT{30e9})}}), 0.02}};
   std::vector<Fiber> fibers;
   for (int i = 0; i < 53; ++i) {
     fibers.push_back({0.01 * (i % 11 - 5), 0.012 * (i % 7 - 3), 1e-4 * (1 + i % 3), laws[static_cast<std::size_t>(i) % laws.size()]});
@@ -48,7 +50,7 @@ double largest_difference(const FiberSection& section) {
 TEST_CASE("the SIMD kernel equals the scalar fibers on every instruction set of this machine") {
   const FiberSection section(mixed_fibers(), 1e4);
   CHECK(section.fibers == 53);
-  CHECK(section.blocks.size() == 5);
+  CHECK(section.blocks.size() == 8);
   const auto supported = hwy::SupportedTargets();
   for (auto target = supported; target != 0; target &= target - 1) {
     const auto lowest = target & (~target + 1);
@@ -58,6 +60,29 @@ TEST_CASE("the SIMD kernel equals the scalar fibers on every instruction set of 
     CHECK(largest_difference(section) < 1e-12);
   }
   hwy::SetSupportedTargetsForTest(0);
+}
+
+TEST_CASE("more wrapped fibers than are evaluated at a time equal as many sections") {
+  std::vector<Fiber> many, few;
+  const UniaxialLaw law = MinMax{inner(Steel01{235e6, 210e9, 0.01}), {}, 0.01};
+  for (int i = 0; i < 7 * wrapped_points / 3; ++i) many.push_back({0, 0, 1e-4, law});
+  few.push_back({0, 0, 1e-4 * static_cast<double>(many.size()), law});
+  const FiberSection large(many, 1), small(few, 1);
+  VectorX committed_large(large.history_size), trial_large(large.history_size);
+  VectorX committed_small(small.history_size), trial_small(small.history_size);
+  initialize_history(large, committed_large.data());
+  initialize_history(small, committed_small.data());
+  for (const double strain : {1e-4, 5e-3, -2e-3, 8e-3, 1.2e-2, 1e-3}) {
+    const Vector3 deformation(strain, 0, 0);
+    const SectionResponse a = respond(large, deformation, committed_large.data(), trial_large.data());
+    const SectionResponse b = respond(small, deformation, committed_small.data(), trial_small.data());
+    // 150 roundings of a sum
+    CHECK(a.force[0] == doctest::Approx(b.force[0]).epsilon(1e-13));
+    CHECK(a.tangent(0, 0) == doctest::Approx(b.tangent(0, 0)).epsilon(1e-13));
+    CHECK(trial_large.allFinite());
+    std::swap(committed_large, trial_large);
+    std::swap(committed_small, trial_small);
+  }
 }
 
 TEST_CASE("a symmetric fiber rectangle has EA, EI and no coupling") {

@@ -46,6 +46,8 @@ struct Sample {
   double strain = yield;         // histories go 20 of these to either side
   double stress = fy;            // of which roundings are measured
   double largest = 22;           // bound of |stress| in such a history, in units of `stress`
+  double conditioning = 0;       // by how much a rounding may grow: |p log x| of a power x^p, or a trial stress over the
+                                 // peak stress; 0 for laws of sums, products and choices
 };
 
 // Every law of the registry is in it at least once; see samples.cpp.

@@ -14,7 +14,7 @@ namespace {
 template <class Property>
 void check_for_all_laws(const Property& property) {
   for (const Sample& sample : samples()) {
-    CAPTURE(sample.name);
+    CAPTURE(std::string(sample.name));
     CHECK(rc::check(sample.name, [&] { property(sample); }));
   }
 }
@@ -26,7 +26,7 @@ double strain_of(const Sample& sample, int hundredths) { return hundredths * sam
 TEST_CASE("every law of the registry is among the samples") {
   std::set<std::size_t> sampled;
   for (const Sample& sample : samples()) sampled.insert(sample.law.index());
-  CHECK(sampled.size() == law_names().size());
+  CHECK(sampled.size() == std::variant_size_v<UniaxialLaw>);
 }
 
 TEST_CASE("the tangent is the derivative of the stress along any history") {
@@ -91,7 +91,7 @@ TEST_CASE("random histories of a thousand strains stay finite") {
 
 TEST_CASE("laws stay finite through strains that repeat and reverse by rounding errors") {
   for (const Sample& sample : samples()) {
-    CAPTURE(sample.name);
+    CAPTURE(std::string(sample.name));
     Point point(sample.law);
     for (const double center : {0.0, 0.5, 3.0, -5.0, 3.0, 0.0}) {
       for (const double offset : {0.0, 1e-16, 0.0, -1e-16, 1e-18, -1e-18, 1e-12, -1e-12, 0.0, 0.0}) {
@@ -105,9 +105,11 @@ TEST_CASE("laws stay finite through strains that repeat and reverse by rounding 
 
 TEST_CASE("the initial tangent is that of the virgin law, and its parameters are accepted") {
   for (const Sample& sample : samples()) {
-    CAPTURE(sample.name);
-    CHECK(initial_tangent(sample.law) ==
-          doctest::Approx(Point(sample.law).probe(1e-9 * sample.strain).tangent).epsilon(1e-9));
+    CAPTURE(std::string(sample.name));
+    // the larger one where tension and compression differ
+    const Point point(sample.law);
+    const double tangent = std::max(point.probe(1e-9 * sample.strain).tangent, point.probe(-1e-9 * sample.strain).tangent);
+    CHECK(initial_tangent(sample.law) == doctest::Approx(tangent).epsilon(1e-9));
     CHECK(fault_of(sample.law) == "");
     CHECK(same_law(sample.law, sample.law));
   }

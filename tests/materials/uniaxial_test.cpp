@@ -29,7 +29,7 @@ TEST_CASE("ElasticPP, Steel01 and Steel02 follow the OpenSees histories in stres
       {"steel02_iso", isotropic_steel},
   };
   for (const auto& [name, law] : cases) {
-    CAPTURE(name);
+    CAPTURE(std::string(name));
     const Difference worst = compare_history(law, name);
     CHECK(worst.stress < tolerance);
     CHECK(worst.tangent < tolerance);

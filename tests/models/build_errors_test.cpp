@@ -293,6 +293,29 @@ TEST_CASE("a law with an impossible parameter is an error, and its members raise
   }
 }
 
+TEST_CASE("wrappers of laws that are not there, or of themselves, are errors at the place") {
+  ModelDescription d = column();
+  const auto around = [](const std::string& name, int line) { return MinMax{{{name, at(line)}, nullptr}, {}, 0.1}; };
+  d.materials = {{"steel", at(28), Elastic{210e9}}, {"brittle", at(29), around("steal", 30)}};
+  CHECK(error_of(d) == "s.toml:30:3: error: material 'steal' is not defined; did you mean 'steel'?");
+  d.materials[1].law = around("steel", 30);
+  CHECK(error_of(d) == "no error");
+  // three in a ring, met from outside
+  d.materials = {{"a", at(25), around("b", 26)}, {"b", at(27), around("c", 28)}, {"c", at(29), around("d", 30)},
+                 {"d", at(31), around("b", 32)}};
+  CHECK(error_of(d) == "s.toml:32:3: error: material 'b' is made of itself: b, c, d, b");
+  d.materials = {{"a", at(25), around("a", 26)}};
+  CHECK(error_of(d) == "s.toml:26:3: error: material 'a' is made of itself: a, a");
+  // an error inside is reported once, where it is
+  d.materials = {{"a", at(25), around("b", 26)}, {"b", at(27), Elastic{-1}}};
+  CHECK(error_of(d) == "s.toml:27:3: error: material 'b': E must be positive");
+  d.materials = {{"a", at(25), InitStress{{{"b", at(26)}, nullptr}, 2e8}}, {"b", at(27), ElasticPP{2e11, 5e-4}}};
+  CHECK(error_of(d) == "s.toml:25:3: error: material 'a': sigInit is not reached by the material's first loading");
+  // a section of such a material raises no others
+  d.sections.push_back(fibers("f", 0, "a"));
+  CHECK(errors_of(d).size() == 1);
+}
+
 TEST_CASE("an initial value of a held direction is an error") {
   ModelDescription d = column();
   only(d).initial_displacements.push_back({{"1", at(6)}, 2, 0.1});

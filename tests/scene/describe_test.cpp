@@ -211,3 +211,34 @@ history = ["nodes", "contacts"]
   CHECK(s.model.motions[0].acceleration[1] == doctest::Approx(0.3 * 9.80665).epsilon(1e-15));
   CHECK(s.places.at("analysis.scheme").line == 32);
 }
+
+TEST_CASE("of laws that share a name a material is the first that knows its keys") {
+  const std::string steel = "[material.a]\nlaw = \"Steel01\"\nfy = 1\nE = 2\n";
+  CHECK(std::holds_alternative<Steel01>(scene(steel).model.materials.front().law));
+  const UniaxialLaw law = scene(steel + "a1 = 0.1").model.materials.front().law;
+  REQUIRE(std::holds_alternative<Steel01Isotropic>(law));
+  CHECK(std::get<Steel01Isotropic>(law).a1 == 0.1);
+}
+
+TEST_CASE("wrappers hold the laws that they name") {
+  const Scene s = scene(R"(
+[material.outer]
+law = "MinMax"
+material = "pair"
+max = "2 %"
+[material.pair]
+law = "Parallel"
+materials = ["steel", "steel"]
+factors = [0.25, 0.5]
+[material.steel]
+law = "Elastic"
+E = "200 GPa"
+[section.box]
+patches = [{ material = "outer", y = [-0.1, 0.1], z = [-0.1, 0.1] }]
+G = "80 GPa"
+J = 1e-4
+)");
+  REQUIRE(s.model.materials.size() == 3);
+  CHECK(initial_tangent(s.model.materials[0].law) == doctest::Approx(150e9));
+  CHECK(std::get<MinMax>(s.model.materials[0].law).max == 0.02);
+}

@@ -133,6 +133,11 @@ TEST_CASE("a material whose parameters contradict each other is an error at the 
         "s.toml:5:9: error: epsyN = 0.001, must be at most 0");
 }
 
+TEST_CASE("an unknown key of laws that share a name is an error") {
+  CHECK(error("[material.a]\nlaw = \"Steel01\"\nfy = 1\nE = 2\na9 = 1") ==
+        "s.toml:5:1: error: unknown key 'a9'; did you mean 'a1'?");
+}
+
 TEST_CASE("sections that can't be made are errors") {
   CHECK(error("[section.a]\nshape = \"HEA105\"\nmaterial = \"m\"") ==
         "s.toml:2:9: error: shape 'HEA105' is not in the catalogue; did you mean 'HEA100'?");

@@ -40,6 +40,53 @@ epsyP = 1e-3
 law = "Steel01"
 fy = "235 MPa"
 E = "210 GPa"
+[material.hardened]
+law = "Steel01"
+fy = "235 MPa"
+E = "210 GPa"
+a3 = 0.02
+[material.soft]
+law = "Elastic"
+E = 2e9
+Eneg = 1e9
+[material.gap]
+law = "ElasticPPGap"
+E = 2e9
+Fy = -1e6
+gap = -0.01
+damage = true
+[material.rubber]
+law = "ENT"
+E = 2e9
+[material.metal]
+law = "Hardening"
+E = 2e11
+sigmaY = 2e8
+H_iso = 1e9
+H_kin = 1e9
+[material.both]
+law = "Parallel"
+materials = ["plastic", "shifted"]
+factors = [0.5, 1]
+[material.shifted]
+law = "InitStrain"
+material = "metal"
+epsInit = 1e-4
+[material.stressed]
+law = "InitStress"
+material = "steel 1"
+sigInit = "20 MPa"
+[material.chain]
+law = "Series"
+materials = "soft"
+[material.brittle]
+law = "MinMax"
+material = "both"
+max = 0.05
+[material.tired]
+law = "Fatigue"
+material = "brittle"
+min = -0.1
 [section.shape]
 shape = "HEA 140"
 material = "steel 1"
