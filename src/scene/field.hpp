@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -48,5 +49,8 @@ struct Field {
 constexpr Field required(std::string_view key, std::string_view text, Dimension dimension = {}, Range range = {}) {
   return {key, text, dimension, range, Presence::required, {}};
 }
+
+// The keys that the values of a row stand for, in order; schema.hpp says more.
+using RowKeys = std::span<const std::string_view>;
 
 }  // namespace nsframe
