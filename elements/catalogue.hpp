@@ -1,12 +1,14 @@
-// Rolled I shapes by name (EN 10365: HEA, HEB, IPE): dimensions, tabulated section properties, fibers and outline.
+// Rolled I shapes by name (EN 10365: HEA, HEB, HEM, IPE; AISC: W): dimensions, tabulated section properties, fibers
+// and outline.
 // Local axes: depth along y, so the strong axis is z.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "elements/sections.hpp"
+#include "elements/fiber_cutting.hpp"
 
 namespace nsframe {
 
@@ -18,6 +20,10 @@ struct CatalogueShape {
   double J;                    // tabulated torsion constant [m4]
 };
 
+// The tables, one a file.
+std::span<const CatalogueShape> european_shapes();
+std::span<const CatalogueShape> w_shapes();
+
 // The shape of that name ("HEA 100", "hea100" or "HE 100 A": case and blanks ignored), or nullptr.
 const CatalogueShape* find_shape(std::string_view name);
 std::vector<std::string> shape_names();
@@ -28,9 +34,13 @@ struct ShapeMesh {
   int flange_layers = 2;
   int web = 8;
   bool fillets = true;
+  // Fibers spread so that area and second moments are those of the drawn shape (its fillets only if there are any).
+  bool exact_moments = false;
 };
 
 std::vector<FiberDescription> shape_fibers(const CatalogueShape& shape, const ShapeMesh& mesh, const Reference& material);
+// Area and second moments of the drawn shape, exact.
+AreaMoments shape_moments(const CatalogueShape& shape, bool fillets);
 SectionOutline shape_outline(const CatalogueShape& shape);
 
 }  // namespace nsframe

@@ -25,6 +25,7 @@ struct FiberDescription {
   double y = 0, z = 0;  // [m]
   double area = 0;      // [m2]
   Reference material;
+  bool displaced = false;  // taken out: another fiber stands in its place
 };
 
 struct FiberSectionDescription {

@@ -52,7 +52,7 @@ Library::Section resolve(const SectionDescription& section, const Materials& mat
       continue;
     }
     if (!(fiber.area > 0)) diagnostics.error(section.at, fmt::format("section '{}': a fiber's area must be positive", section.name));
-    fibers.push_back({fiber.y, fiber.z, fiber.area, law->second});
+    fibers.push_back({fiber.y, fiber.z, fiber.displaced ? -fiber.area : fiber.area, law->second});
   }
   if (description.fibers.empty()) diagnostics.error(section.at, fmt::format("section '{}' has no fibers", section.name));
   if (!(description.torsion_stiffness > 0)) {
@@ -60,6 +60,9 @@ Library::Section resolve(const SectionDescription& section, const Materials& mat
   }
   auto built = std::make_shared<FiberSection>(fibers, description.torsion_stiffness);
   resolved.elastic = elastic_constants(*built);
+  if (const ElasticSection& e = resolved.elastic; e.A < 0 || e.Iz < 0 || e.Iy < 0) {
+    diagnostics.error(section.at, fmt::format("section '{}': more is displaced than there is", section.name));
+  }
   resolved.fibers = std::move(built);
   return resolved;
 }

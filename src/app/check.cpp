@@ -4,6 +4,7 @@
 #include <map>
 
 #include "app/commands.hpp"
+#include "models/build_elements.hpp"
 
 namespace nsframe::app {
 
@@ -28,6 +29,17 @@ void print_structure(const LoadedScene& loaded, Simulation& simulation, std::siz
     fmt::print("  mode {:<3} {:10.4f} Hz   damping {:6.3f} %   mass x {:5.1f} %  y {:5.1f} %  z {:5.1f} %\n", modes.names[at],
                modes.modes.circular_frequency[i] / (2 * pi), 100 * modes.damping_ratio[i], 100 * modes.participation[at].x(),
                100 * modes.participation[at].y(), 100 * modes.participation[at].z());
+  }
+}
+
+// Initial stiffnesses; of fibers with E in A and I, as build_library() leaves them.
+void print_sections(const ModelDescription& description) {
+  Diagnostics none;  // build_model() has reported them
+  for (const auto& [name, section] : build_library(description, none).sections) {
+    const ElasticSection& e = section.elastic;
+    fmt::print("section '{}': {}EA {:.5g} kN, EIz {:.5g} kN m2, EIy {:.5g} kN m2, GJ {:.5g} kN m2\n", name,
+               section.fibers ? counted(section.fibers->fibers, "fiber") + ", " : "", e.E * e.A / 1e3, e.E * e.Iz / 1e3,
+               e.E * e.Iy / 1e3, e.G * e.J / 1e3);
   }
 }
 
@@ -70,6 +82,7 @@ int check(const SceneArguments& arguments) {
   fmt::print("{}, {}, {}{}\n", counted(model.nodes.size(), "node"), counted(elements, "element"),
              counted(model.dofs.size(), "free DOF"), fibers > 0 ? ", " + counted(fibers, "fiber") : "");
   for (const auto& [kind, count] : kinds) fmt::print("  {:<24} {}\n", kind, count);
+  print_sections(loaded.scene.model);
   for (std::size_t i = 0; i < model.structures.size(); ++i) print_structure(loaded, simulation, i);
   print_contacts(model.contacts);
   for (const GroundMotion& motion : model.motions) {

@@ -28,6 +28,8 @@ int check(const SceneArguments& arguments);
 int modes(const SceneArguments& arguments);
 int export_matrices(const SceneArguments& arguments);
 int reference();
+struct SectionArguments;  // section.hpp
+int section(const SectionArguments& arguments);
 
 // A scene read, validated and built; throws InputError with every error of the file and of the model.
 struct LoadedScene {

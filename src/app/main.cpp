@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "app/commands.hpp"
+#include "app/section.hpp"
 #include "base/errors.hpp"
 
 namespace nsframe::app {
@@ -19,6 +20,29 @@ CLI::App* add_command(CLI::App& program, const std::string& name, const std::str
   command->add_option("--threads", arguments.threads, "threads for nonlinear elements (default: the scene's, 1)")
       ->check(CLI::Range(1, 1024));
   return command;
+}
+
+void add_section_command(CLI::App& program, SectionArguments& a, std::function<int()>& command) {
+  CLI::App* c = program.add_subcommand("section", "moment-curvature and interaction curves of a section");
+  c->add_option("scene", a.scene.scene, "scene file (TOML)")->required();
+  c->add_option("section", a.section, "name of the section")->required();
+  c->add_option("--set", a.scene.set, "key=value: change a value of the scene")->allow_extra_args(false);
+  c->add_option("--axial", a.axial, "axial force held, tension positive, as \"-500 kN\" (default: 0)");
+  c->add_option("--angle", a.angle, "axis of bending: 0 about z (default), 90 about y; degrees");
+  c->add_option("--curvature", a.curvature, "to reach, as \"0.05 rad/m\" (default: 0.03 over the depth)");
+  c->add_option("--cycles", a.cycles, "amplitudes of cycles in place of --curvature");
+  c->add_option("--steps", a.steps, "to the curvature, or from peak to peak (default: 200)")->check(CLI::Range(1, 1000000));
+  c->add_flag("--free", a.free_axis, "let the axis turn: no moment across (default: no curvature across)");
+  c->add_flag("--interaction", a.interaction, "axial force and moment at the strain limits, for the angle and its opposite");
+  c->add_option("--surface", a.surface, "the same for so many angles around")->check(CLI::Range(1, 360));
+  c->add_option("--points", a.points, "of an interaction curve (default: 41)")->check(CLI::Range(3, 10000));
+  c->add_option("--shortening", a.shortening, "strain limit of all materials (default: 0.0035)");
+  c->add_option("--elongation", a.elongation, "the same in tension (default: 0.01)");
+  c->add_option("--limit", a.limits, "strain limit of a material: C30=-0.0035 shortening, S500=0.05 elongation")
+      ->allow_extra_args(false);
+  c->add_option("-o,--output", a.scene.output, "folder for section.json, moment_curvature.csv, interaction.csv");
+  c->add_flag("--json", a.scene.json, "print JSON");
+  c->callback([&] { command = [&] { return section(a); }; });
 }
 
 int guarded(const std::function<int()>& command) {
@@ -63,6 +87,8 @@ int program(int count, char** values) {
   export_command->add_option("-o,--output", arguments.output, "folder (default: results/<name of the scene>)");
   export_command->add_flag("-q,--quiet", arguments.quiet, "print errors only");
   export_command->callback([&] { command = [&] { return export_matrices(arguments); }; });
+  SectionArguments section_arguments;
+  add_section_command(program, section_arguments, command);
   program.add_subcommand("reference", "print the scene reference (docs/scene-reference.md)")->callback([&] {
     command = reference;
   });

@@ -4,29 +4,10 @@
 
 #include <algorithm>
 
-#include "elements/catalogue.hpp"
 #include "scene/describe.hpp"
 #include "scene/reader.hpp"
 
 namespace nsframe {
-
-void check(TableReader& table, const ShapeSection& section) {
-  if (!find_shape(section.shape.name))
-    table.error("shape", fmt::format("shape '{}' is not in the catalogue{}", section.shape.name,
-                                     did_you_mean(section.shape.name, shape_names())));
-}
-
-void check(TableReader& table, const ConstantsSection& section) {
-  if (section.G.has_value() == section.poisson.has_value())
-    table.error("G", "a section of constants needs either G or poisson");
-}
-
-void check(TableReader& table, const PatchSection& section) {
-  if (section.GJ.has_value() == (section.G && section.J) || section.G.has_value() != section.J.has_value())
-    table.error("GJ", "a fiber section needs either GJ, or G and J");
-  for (const PatchTable& patch : section.patches)
-    if (patch.y[0] == patch.y[1] || patch.z[0] == patch.z[1]) table.error("patches", "a patch has no area");
-}
 
 void check(TableReader& table, const MassTable& mass) {
   if (mass.mass.size() != 1 && mass.mass.size() != 3)

@@ -10,9 +10,6 @@ class TableReader;
 template <class Table>
 void check(TableReader&, const Table&) {}
 
-void check(TableReader& table, const ShapeSection& section);
-void check(TableReader& table, const ConstantsSection& section);
-void check(TableReader& table, const PatchSection& section);
 void check(TableReader& table, const MassTable& mass);
 void check(TableReader& table, const BeamTable& beam);
 void check(TableReader& table, const BarTable& bar);

@@ -2,68 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "scene/motion_file.hpp"
 
 namespace nsframe {
 
 namespace {
-
-// Shear modulus by Poisson's ratio from a material of the scene; 0 when there is none of that name, which
-// build_model() reports.
-double shear_modulus(const Materials& materials, const std::string& name, double poisson) {
-  const auto found = materials.find(name);
-  return found == materials.end() ? 0 : initial_tangent(found->second) / (2 * (1 + poisson));
-}
-
-SectionOutline rectangle(double y0, double y1, double z0, double z1) {
-  return {{y0, z0}, {y1, z0}, {y1, z1}, {y0, z1}};
-}
-
-void describe(const ShapeSection& section, const Materials& materials, SectionDescription& out) {
-  const CatalogueShape* shape = find_shape(section.shape.name);
-  FiberSectionDescription fibers;
-  if (shape) {
-    const ShapeMesh mesh{section.flange_width, section.flange_layers, section.web, section.fillets};
-    fibers.fibers = shape_fibers(*shape, mesh, section.material);
-    const double G = section.G ? *section.G : shear_modulus(materials, section.material.name, section.poisson);
-    fibers.torsion_stiffness = G * section.J.value_or(shape->J);
-    out.outline = shape_outline(*shape);
-  }
-  out.kind = std::move(fibers);
-}
-
-void describe(const ConstantsSection& section, const Materials&, SectionDescription& out) {
-  ElasticSection constants = section.constants;
-  constants.G = section.G.value_or(constants.E / (2 * (1 + section.poisson.value_or(0))));
-  out.kind = constants;
-  const double y = section.depth / 2, z = section.width / 2;
-  if (y > 0 && z > 0) out.outline = rectangle(-y, y, -z, z);
-}
-
-// The outline is the rectangle around all patches.
-void describe(const PatchSection& section, const Materials&, SectionDescription& out) {
-  FiberSectionDescription fibers;
-  Vector2 low = Vector2::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (const PatchTable& patch : section.patches) {
-    const double dy = (patch.y[1] - patch.y[0]) / patch.ny, dz = (patch.z[1] - patch.z[0]) / patch.nz;
-    for (int iy = 0; iy < patch.ny; ++iy)
-      for (int iz = 0; iz < patch.nz; ++iz)
-        fibers.fibers.push_back(
-            {patch.y[0] + (iy + 0.5) * dy, patch.z[0] + (iz + 0.5) * dz, std::abs(dy * dz), patch.material});
-    for (const int corner : {0, 1}) {
-      const Vector2 point(patch.y[std::size_t(corner)], patch.z[std::size_t(corner)]);
-      low = low.cwiseMin(point);
-      high = high.cwiseMax(point);
-    }
-  }
-  for (const FiberTable& fiber : section.fibers)
-    fibers.fibers.push_back({fiber.y, fiber.z, fiber.area, fiber.material});
-  fibers.torsion_stiffness = section.GJ ? *section.GJ : section.G.value_or(0) * section.J.value_or(0);
-  out.kind = std::move(fibers);
-  if (!section.patches.empty()) out.outline = rectangle(low.x(), high.x(), low.y(), high.y());
-}
 
 std::optional<MotionDescription> describe(const MotionTable& motion, const std::filesystem::path& directory,
                                           Diagnostics& diagnostics) {
@@ -91,7 +35,12 @@ SectionDescription describe(const SectionTable& section, const Materials& materi
   SectionDescription out;
   out.name = section.name;
   out.at = section.at;
-  std::visit([&](const auto& kind) { describe(kind, materials, out); }, section.kind);
+  // 0 when there is no material of that name, which build_model() reports
+  const ElasticModulus modulus = [&materials](const Reference& material) {
+    const auto found = materials.find(material.name);
+    return found == materials.end() ? 0 : initial_tangent(found->second);
+  };
+  std::visit([&](const auto& kind) { describe(kind, modulus, out); }, section.kind);
   return out;
 }
 

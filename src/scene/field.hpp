@@ -1,6 +1,7 @@
 // What the schema says about one key of a scene: see schema.hpp.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "base/range.hpp"
@@ -21,5 +22,8 @@ struct Field {
 constexpr Field required(std::string_view key, std::string_view text, Dimension dimension = {}, Range range = {}) {
   return {key, text, dimension, range, Presence::required, {}};
 }
+
+// The keys that the values of a row stand for, in order; schema.hpp says more.
+using RowKeys = std::span<const std::string_view>;
 
 }  // namespace nsframe

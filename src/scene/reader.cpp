@@ -303,14 +303,15 @@ void Reader::read(const Value& value, const Field& field, SectionTable& out) {
   const toml::node* node = value.single();
   if (!node || !node->is_table()) return wrong_type(value, field, "a table");
   const toml::table& table = *node->as_table();
-  if (table.contains("shape"))
-    read_entries(table_entries(table), value.at, out.kind.emplace<ShapeSection>());
-  else if (table.contains("patches") || table.contains("fibers"))
-    read_entries(table_entries(table), value.at, out.kind.emplace<PatchSection>());
-  else if (table.contains("A") || table.contains("E"))
-    read_entries(table_entries(table), value.at, out.kind.emplace<ConstantsSection>());
-  else
-    error(value.at, "a section needs a shape, patches or fibers, or the constants E, G, A, Iz, Iy, J");
+  const auto try_kinds = [&]<class... Kinds>(std::variant<Kinds...>& kind) {
+    const auto chosen = [&table](const auto& keys) {
+      return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return table.contains(key); });
+    };
+    return ((chosen(Kinds::chosen_by) &&
+             (read_entries(table_entries(table), value.at, kind.template emplace<Kinds>()), true)) ||
+            ...);
+  };
+  if (!try_kinds(out.kind)) error(value.at, "a section needs one of: " + section_choices());
 }
 
 void Reader::read(const Value& value, const Field& field, StructureTable& out) {

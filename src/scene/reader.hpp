@@ -6,6 +6,7 @@
 #include <toml++/toml.h>
 
 #include <array>
+#include <concepts>
 #include <optional>
 #include <string>
 #include <vector>
@@ -130,6 +131,15 @@ class TableReader {
   Location at_;
   std::vector<std::string> known_;
 };
+
+// The rules of a kind of section and of its small tables, by their faults().
+template <class Kind>
+requires requires(const Kind& kind) {
+  { faults(kind) } -> std::same_as<SectionFaults>;
+}
+void check(TableReader& table, const Kind& kind) {
+  for (const SectionFault& fault : faults(kind)) table.error(fault.key, fault.message);
+}
 
 std::vector<Entry> table_entries(const toml::table& table);  // in the order of the file
 std::vector<Entry> row_entries(const std::vector<const toml::node*>& values, RowKeys keys);

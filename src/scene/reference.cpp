@@ -1,6 +1,7 @@
 // docs/scene-reference.md from the schema.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,9 @@ std::string kind_of(const Field& field, const std::optional<T>*) {
 }
 template <class T, std::size_t n>
 std::string kind_of(const Field& field, const std::array<T, n>*) {
-  return fmt::format("{}, {}", kind_of(field, static_cast<const T*>(nullptr)), n == 2 ? "two" : "three");
+  static_assert(n >= 2 && n <= 4);
+  constexpr std::array<std::string_view, 5> numbers{"", "", "two", "three", "four"};
+  return fmt::format("{}, {}", kind_of(field, static_cast<const T*>(nullptr)), numbers[n]);
 }
 template <class T>
 std::string kind_of(const Field& field, const std::vector<T>*) {
@@ -80,8 +83,6 @@ constexpr std::string_view title_of(const SlabTable*) { return "a slab"; }
 constexpr std::string_view title_of(const InitialDisplacement*) { return "an initial displacement"; }
 constexpr std::string_view title_of(const InitialVelocity*) { return "an initial velocity"; }
 constexpr std::string_view title_of(const DampingTable*) { return "damping"; }
-constexpr std::string_view title_of(const PatchTable*) { return "a patch"; }
-constexpr std::string_view title_of(const FiberTable*) { return "a fiber"; }
 constexpr std::string_view title_of(const FrameColumns*) { return "columns"; }
 constexpr std::string_view title_of(const FrameMembers*) { return "beams"; }
 constexpr std::string_view title_of(const FrameSlab*) { return "slabs of a story frame"; }
@@ -109,7 +110,8 @@ class Rows {
     constexpr const Item* item = nullptr;
     if constexpr (HasTitle<Item>) {
       kind = fmt::format("{}: {}", ListItem<T>::list ? "list of tables" : "table", title_of(item));
-      below_.push_back(section<Item>());
+      auto table = section<Item>();
+      if (std::find(below_.begin(), below_.end(), table) == below_.end()) below_.push_back(std::move(table));
     } else {
       kind = kind_of(field, &value);
     }
@@ -157,6 +159,11 @@ std::string chapter(std::string_view heading, std::string_view note = "") {
   return fmt::format("\n## {}\n\n{}", heading, Rows::keys<T>(std::string(note)));
 }
 
+template <class... Kinds>
+std::string section_chapters(const std::variant<Kinds...>*) {
+  return (chapter<Kinds>(fmt::format("[section.NAME] by {}", Kinds::title), Kinds::note) + ...);
+}
+
 constexpr std::string_view introduction = R"(# Scene reference
 
 Written by `nsframe reference` from the schema in `src/scene/schema*.hpp`; a test compares the two.
@@ -182,9 +189,7 @@ std::string scene_reference() {
     if constexpr (requires { law.variety; }) variety = fmt::format(", {}", law.variety);
     out += chapter<std::decay_t<decltype(law)>>(fmt::format("[material.NAME], law = \"{}\"{}", law.name, variety));
   });
-  out += chapter<ShapeSection>("[section.NAME] by a rolled shape", "Depth along local y.");
-  out += chapter<ConstantsSection>("[section.NAME] by constants");
-  out += chapter<PatchSection>("[section.NAME] by fibers", "Either `GJ`, or `G` and `J`.");
+  out += section_chapters(static_cast<const SectionKind*>(nullptr));
   out += chapter<ExplicitStructure>("[structure.NAME], explicit");
   out += chapter<StoryFrameTable>(
       "[structure.NAME], model = \"story_frame\"",

@@ -5,7 +5,6 @@
 // ending in "..." takes all that remain). is_map() tables may also be keyed by their first row key.
 #pragma once
 
-#include <span>
 #include <utility>
 
 #include "materials/parameter.hpp"
@@ -15,8 +14,6 @@
 #include "scene/tables.hpp"
 
 namespace nsframe {
-
-using RowKeys = std::span<const std::string_view>;
 
 template <class Table>
 constexpr RowKeys row_keys(const Table*) {
@@ -34,7 +31,6 @@ constexpr std::string_view scalar_key(const Table*) {
 }
 
 inline constexpr Range gauss_points{3, 10, false, false};
-inline constexpr Range count{1, 1000};
 
 // --- materials
 // --------------------------------------------------------------------------------------------------------
@@ -52,70 +48,6 @@ void visit(Archive& ar, Law& law) {
         ar(Field{p.name, p.text, dimension_of(p.measure), p.range, p.presence, p.default_text}, value);
       },
       law);
-}
-
-// --- sections
-// ---------------------------------------------------------------------------------------------------------
-
-template <class Archive>
-void visit(Archive& ar, ShapeSection& s) {
-  ar(required("shape", "rolled shape: HEA, HEB or IPE and its number, as `HEA100`"), s.shape);
-  ar(required("material", "of the fibers"), s.material);
-  ar(Field{"flange_width", "fibers across a flange's width", {}, count}, s.flange_width);
-  ar(Field{"flange_layers", "fibers through a flange's thickness", {}, count}, s.flange_layers);
-  ar(Field{"web", "fibers along the web", {}, count}, s.web);
-  ar(Field{"fillets", "root fillets, one fiber each"}, s.fillets);
-  ar(Field{"poisson", "Poisson's ratio, for G = E/(2(1 + poisson))", {}, {-1, 0.5, true, false}}, s.poisson);
-  ar(Field{"G", "shear modulus, in place of Poisson's ratio", dimension::stress, range::positive}, s.G);
-  ar(Field{.key = "J",
-           .text = "torsion constant",
-           .dimension = dimension::fourth_power_of_length,
-           .range = range::positive,
-           .default_text = "of the catalogue"},
-     s.J);
-}
-
-template <class Archive>
-void visit(Archive& ar, ConstantsSection& s) {
-  constexpr Dimension m4 = dimension::fourth_power_of_length;
-  ar(required("E", "elastic modulus", dimension::stress, range::positive), s.constants.E);
-  ar(Field{.key = "G", .text = "shear modulus", .dimension = dimension::stress, .range = range::non_negative}, s.G);
-  ar(Field{"poisson", "Poisson's ratio, in place of G = E/(2(1 + poisson))", {}, {-1, 0.5, true, false}}, s.poisson);
-  ar(required("A", "area", dimension::area, range::positive), s.constants.A);
-  ar(required("Iz", "second moment for bending in the local x-y plane", m4, range::positive), s.constants.Iz);
-  ar(required("Iy", "second moment for bending in the local x-z plane", m4, range::positive), s.constants.Iy);
-  ar(required("J", "torsion constant", m4, range::non_negative), s.constants.J);
-  ar(Field{"depth", "along local y, of the rectangle drawn; 0: none drawn", dimension::length, range::non_negative},
-     s.depth);
-  ar(Field{"width", "along local z, of the rectangle drawn", dimension::length, range::non_negative}, s.width);
-}
-
-template <class Archive>
-void visit(Archive& ar, PatchTable& p) {
-  ar(required("material", "of the fibers"), p.material);
-  ar(required("y", "from and to along local y", dimension::length), p.y);
-  ar(required("z", "from and to along local z", dimension::length), p.z);
-  ar(Field{"ny", "fibers along y", {}, count}, p.ny);
-  ar(Field{"nz", "fibers along z", {}, count}, p.nz);
-}
-
-template <class Archive>
-void visit(Archive& ar, FiberTable& f) {
-  ar(required("y", "place along local y", dimension::length), f.y);
-  ar(required("z", "place along local z", dimension::length), f.z);
-  ar(required("area", "area", dimension::area, range::positive), f.area);
-  ar(required("material", "of the fiber"), f.material);
-}
-inline constexpr std::string_view fiber_row[]{"y", "z", "area", "material"};
-constexpr RowKeys row_keys(const FiberTable*) { return fiber_row; }
-
-template <class Archive>
-void visit(Archive& ar, PatchSection& s) {
-  ar(Field{"patches", "rectangles cut into fibers"}, s.patches);
-  ar(Field{"fibers", "single fibers"}, s.fibers);
-  ar(Field{"GJ", "torsional stiffness", dimension::bending_stiffness, range::non_negative}, s.GJ);
-  ar(Field{"G", "shear modulus, with J in place of GJ", dimension::stress, range::non_negative}, s.G);
-  ar(Field{"J", "torsion constant", dimension::fourth_power_of_length, range::non_negative}, s.J);
 }
 
 // --- contact, loads

@@ -8,10 +8,10 @@
 #include <variant>
 #include <vector>
 
-#include "elements/catalogue.hpp"
 #include "models/description.hpp"
 #include "models/story_frame.hpp"
 #include "scene/quantity.hpp"
+#include "scene/sections/sections.hpp"
 
 namespace nsframe {
 
@@ -37,42 +37,10 @@ struct MaterialTable {
   UniaxialLaw law;
 };
 
-struct ShapeSection {
-  Reference shape;  // of the catalogue
-  Reference material;
-  int flange_width = ShapeMesh{}.flange_width, flange_layers = ShapeMesh{}.flange_layers, web = ShapeMesh{}.web;
-  bool fillets = ShapeMesh{}.fillets;
-  double poisson = 0.3;
-  std::optional<double> G, J;  // [Pa], [m4]
-};
-
-struct ConstantsSection {
-  ElasticSection constants;          // but for G
-  std::optional<double> G, poisson;  // [Pa], [-]: one of them
-  double depth = 0, width = 0;       // [m] along local y and z, of the rectangle drawn
-};
-
-struct PatchTable {
-  Reference material;
-  std::array<double, 2> y{}, z{};  // [m] from, to
-  int ny = 1, nz = 1;
-};
-
-struct FiberTable {
-  double y = 0, z = 0, area = 0;  // [m], [m2]
-  Reference material;
-};
-
-struct PatchSection {
-  std::vector<PatchTable> patches;
-  std::vector<FiberTable> fibers;
-  std::optional<double> GJ, G, J;  // [N m2], [Pa], [m4]
-};
-
 struct SectionTable {
   std::string name;
   Location at;
-  std::variant<ShapeSection, ConstantsSection, PatchSection> kind;
+  SectionKind kind;
 };
 
 // --- explicit structures

@@ -64,7 +64,8 @@ class ValueWriter {
                           !std::is_same_v<typename List::value_type, Reference> &&
                           !std::is_same_v<typename List::value_type, InnerLaw> &&
                           !std::is_same_v<typename List::value_type, std::string> &&
-                          !std::is_same_v<typename List::value_type, std::vector<double>>;
+                          !std::is_same_v<typename List::value_type, std::vector<double>> &&
+                          !std::is_same_v<typename List::value_type, std::array<double, 2>>;
     std::string out = "[";
     for (const auto& value : values) {
       if (out.size() > 1) out += rows ? "," : ", ";

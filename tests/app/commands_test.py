@@ -37,6 +37,23 @@ max_halvings = 0
 history = ["nodes", "energy"]
 """
 
+SECTIONS = """
+[material.steel]
+law = "ElasticPP"
+E = "200 GPa"
+epsyP = 1.25e-3
+[section.bar]
+patches = [{ material = "steel", y = ["-50 mm", "50 mm"], z = ["-10 mm", "10 mm"], ny = 100, nz = 4 }]
+GJ = 1e4
+[section.constants]
+E = "200 GPa"
+poisson = 0.3
+A = 1e-3
+Iz = 1e-6
+Iy = 1e-6
+J = 1e-6
+"""
+
 
 def matrix_market(path):
     """Size and entries of a Matrix Market file, coordinate or array."""
@@ -158,6 +175,8 @@ class Commands(unittest.TestCase):
 
     def test_check_prints_the_model_in_plain_words(self):
         text = self.nsframe("check", PAIR).stdout
+        # HEA100 in its default mesh: 21.24 cm2 of 210 GPa
+        self.assertRegex(text, r"section 'column_left': (52 fibers, )?EA 4\.4\d+e\+05 kN, EIz ")
         for words in ("structure 'left': ", "structure 'right': ", "contact pairs: 4", "mode L1", "linear, the iteration matrix is factored once",
                       "scheme moreau-jean: theta = 1, gamma = 1.5, dt = 1 ms, 20000 steps to 20 s"):
             self.assertIn(words, text)
@@ -203,11 +222,55 @@ class Commands(unittest.TestCase):
         for key in set(one) - {"timing", "title"}:
             self.assertEqual(one[key], two[key], key)
 
+    def test_a_section_is_bent_and_its_interaction_found(self):
+        scene = self.scene(SECTIONS)
+        done = self.nsframe("section", scene, "bar", "--axial", "-200 kN", "--curvature", "1 rad/m", "-o", "out", "--interaction",
+                            "--shortening", "0.1", "--elongation", "0.1")
+        for words in ("section 'bar': 400 fibers", "first yield of steel", "largest moment", "interaction at the strain limits",
+                      "python3 python/plot_section.py out"):
+            self.assertIn(words, done.stdout)
+        data = json.loads((self.folder / "out/section.json").read_text())
+        curve = data["moment_curvature"]
+        plastic, squash = 0.02 * 0.1**2 / 4 * 250e6, 0.1 * 0.02 * 250e6
+        self.assertAlmostEqual(data["initial_tangent"][0][0], 0.1 * 0.02 * 200e9, delta=1)
+        exact = (1 - (200e3 / squash) ** 2) * plastic
+        self.assertAlmostEqual(curve["rows"][-1]["moment"], exact, delta=2e-3 * exact)
+        self.assertEqual(len(curve["rows"]), 201)
+        self.assertEqual(curve["rows"][-1]["curvature"], 1)
+        self.assertEqual(len(data["interaction"]), 2)
+        rows = (self.folder / "out/moment_curvature.csv").read_text().splitlines()
+        self.assertEqual(len(rows), 202)
+        self.assertEqual(float(rows[-1].split(",")[1]), curve["rows"][-1]["moment"])
+        self.assertEqual(len((self.folder / "out/interaction.csv").read_text().splitlines()), 1 + 2 * 41)
+
+    def test_a_section_answers_in_json_by_angle_and_in_cycles(self):
+        scene = self.scene(SECTIONS)
+        weak = json.loads(self.nsframe("section", scene, "bar", "--angle", "90", "--curvature", "5", "--json").stdout)
+        plastic = 0.1 * 0.02 * 0.02 / 4 * 250e6
+        self.assertAlmostEqual(weak["moment_curvature"]["peak"]["moment"], plastic, delta=0.02 * plastic)  # four fibers across
+        cyclic = json.loads(self.nsframe("section", scene, "bar", "--cycles", "0.1", "0.2", "--steps", "20", "--json").stdout)
+        self.assertEqual([row["curvature"] for row in cyclic["moment_curvature"]["rows"]][20::20], [0.1, -0.1, 0.2, -0.2, 0])
+        surface = json.loads(self.nsframe("section", scene, "bar", "--surface", "8", "--points", "5", "--json").stdout)
+        self.assertEqual(len(surface["interaction"]), 8)
+
+    def test_a_section_that_cannot_be_analysed_says_why(self):
+        scene = self.scene(SECTIONS)
+        done = self.nsframe("section", scene, "bra", code=2)
+        self.assertIn("section 'bra' is not defined; did you mean 'bar'?", done.stderr)
+        self.assertIn("elastic constants only", self.nsframe("section", scene, "constants", code=2).stderr)
+        self.assertIn('--axial = "3 m" is a length, must be a force (N)',
+                      self.nsframe("section", scene, "bar", "--axial", "3 m", code=2).stderr)
+        self.assertIn("no material 'stel'; did you mean 'steel'?",
+                      self.nsframe("section", scene, "bar", "--interaction", "--limit", "stel=0.1", code=2).stderr)
+        self.assertIn("exclude each other", self.nsframe("section", scene, "bar", "--cycles", "1", "--curvature", "1", code=2).stderr)
+        self.assertIn("cannot carry an axial force of -600000 N",
+                      self.nsframe("section", scene, "bar", "--axial", "-600000", code=3).stderr)
+
     def test_reference_prints_the_documentation_of_scenes(self):
         self.assertEqual(self.nsframe("reference").stdout, (SOURCE / "docs/scene-reference.md").read_text())
 
     def test_help_fits_a_screen(self):
-        for arguments in ((), ("run",), ("check",), ("modes",), ("export",), ("reference",)):
+        for arguments in ((), ("run",), ("check",), ("modes",), ("export",), ("section",), ("reference",)):
             lines = self.nsframe(*arguments, "--help").stdout.splitlines()
             self.assertLessEqual(len(lines), 40, arguments)
             self.assertGreater(len(lines), 2, arguments)

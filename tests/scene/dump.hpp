@@ -28,7 +28,8 @@ inline std::string dump(const SectionDescription& s) {
   if (const auto* f = std::get_if<FiberSectionDescription>(&s.kind)) {
     out += fmt::format(" GJ {}", f->torsion_stiffness);
     for (const auto& fiber : f->fibers)
-      out += fmt::format(" ({} {} {} {})", fiber.y, fiber.z, fiber.area, fiber.material.name);
+      out += fmt::format(" ({} {} {} {}{})", fiber.y, fiber.z, fiber.area, fiber.material.name,
+                         fiber.displaced ? " out" : "");
   }
   for (const Vector2& point : s.outline) out += numbers(point);
   return out + "\n";

@@ -148,7 +148,7 @@ TEST_CASE("sections that can't be made are errors") {
   CHECK(error("[section.a]\nfibers = [[0, 0, 1, \"m\"]]") ==
         "s.toml:1:10: error: a fiber section needs either GJ, or G and J");
   CHECK(error("[section.a]\ndepth = 1") ==
-        "s.toml:1:10: error: a section needs a shape, patches or fibers, or the constants E, G, A, Iz, Iy, J");
+        "s.toml:1:10: error: a section needs one of: " + section_choices());
 }
 
 TEST_CASE("damping that doesn't fit its kind is an error") {

@@ -91,6 +91,7 @@ min = -0.1
 shape = "HEA 140"
 material = "steel 1"
 web = 4
+exact_moments = true
 fillets = false
 G = "80 GPa"
 J = "8.13 cm4"
@@ -106,7 +107,39 @@ width = 0.2
 [section.fibers]
 patches = [{ material = "plastic", y = [-0.1, 0.1], z = ["-5 cm", "5 cm"], ny = 4, nz = 2 }]
 fibers = [[0.08, 0, "2 cm2", "linear"], { y = -0.08, z = 0, area = 2e-4, material = "linear" }]
+quads = [{ material = "plastic", corners = [[0, 0], [0.1, 0], ["12 cm", 0.1], [0, 0.1]], n_ij = 3 }]
+rings = [{ material = "linear", center = [0.1, 0.2], radius = [0, "5 cm"], angle = [0, "90 deg"], rings = 2, sectors = 3 }]
+layers = [{ material = "linear", from = [0, 0], to = [0, 1], count = 3, diameter = "20 mm" }]
+arcs = [{ material = "linear", radius = 0.1, count = 5, area = "1 cm2" }]
 GJ = 1e5
+[section.tube]
+tube = ["200 mm", "100 mm", "8 mm"]
+forming = "cold"
+material = "plastic"
+[section.pipe]
+pipe = ["139.7 mm", "5 mm"]
+material = "plastic"
+poisson = 0.25
+[section.angle]
+angle = ["150 mm", "100 mm", "10 mm", "12 mm", "4 mm"]
+principal_axes = true
+material = "plastic"
+[section.rectangle]
+rectangle = [0.5, 0.4]
+core = "plastic"
+cover_material = "linear"
+cover = "4 cm"
+steel = "steel 1"
+top = [3, "20 mm"]
+sides = { count = 2, area = "2 cm2" }
+displaced = true
+[section.circle]
+circle = 0.5
+core = "plastic"
+steel = "steel 1"
+bar_depth = "5 cm"
+bars = [8, "20 mm"]
+first_bar = "22.5 deg"
 [structure.a]
 element = "displacement"
 points = 4
