@@ -4,7 +4,7 @@
 #include "elements/section_analysis.hpp"
 #include "models/build_elements.hpp"
 #include "scene/scene.hpp"
-#include "support/reference_data.hpp"
+#include "../support/reference_data.hpp"
 
 using namespace nsframe;
 
@@ -32,8 +32,8 @@ quads = [{ material = "bent", corners = [[-0.20, -0.15], [0.18, -0.10], [0.22, 0
 patches = [{ material = "plastic", y = [0.20, 0.28], z = [-0.15, 0.15], ny = 3, nz = 5 }]
 rings = [{ material = "sharp", center = [-0.05, 0.02], radius = [0.03, 0.08], angle = ["30 deg", "210 deg"], sectors = 5, rings = 2 }]
 layers = [
-  { material = "sharp", count = 3, area = 3.14e-4, from = [-0.15, -0.10], to = [-0.15, 0.10] },
-  { material = "sharp", count = 1, area = 2e-4, from = [0.10, -0.05], to = [0.10, 0.09] },
+  { material = "bent", count = 3, area = 3.14e-4, from = [-0.15, -0.10], to = [-0.15, 0.10] },
+  { material = "bent", count = 1, area = 2e-4, from = [0.10, -0.05], to = [0.10, 0.09] },
 ]
 arcs = [
   { material = "sharp", count = 8, area = 2.01e-4, center = [0.02, -0.01], radius = 0.09 },
