@@ -136,7 +136,7 @@ TEST_CASE("exact moments of a shape are those of a fine mesh") {
     const AreaMoments exact = shape_moments(shape, false);
     // strips lose 1/n^2; the web is one fiber thick
     const double web = (shape.h - 2 * shape.tf) * std::pow(shape.tw, 3) / 12;
-    CHECK(difference(s.area, exact.area) < 1e-11);
+    CHECK(difference(s.area, exact.area) < 1e-9);  // rounding of a sum of 800 000
     CHECK(difference(s.strong, exact.second(0, 0)) < 1e-6);
     CHECK(difference(s.weak + web, exact.second(1, 1)) < 1e-6);
   }

@@ -104,10 +104,13 @@ TEST_CASE("with a free axis an elastic angle bends without moment across, with a
 
 TEST_CASE("a cycle of a kinematic law closes on itself") {
   const AnalysedSection section = rectangle(0.2, 0.1, 50, 1, Steel01{fy, E, 0.02});
-  const auto curve = moment_curvature(section, {-1e6, 0, {0.1, -0.1, 0.1, -0.1, 0.1}, 40, false});
+  const auto curve = moment_curvature(section, {0, 0, {0.1, -0.1, 0.1, -0.1, 0.1}, 40, false});
   REQUIRE(curve.states.size() == 201);
-  for (std::size_t i = 0; i <= 80; ++i)
-    CHECK(curve.states[40 + i].moment == doctest::Approx(curve.states[120 + i].moment).epsilon(1e-6));
+  for (std::size_t i = 0; i <= 80; ++i) {
+    const double moment = curve.states[40 + i].moment, scale = curve.states[40].moment;
+    CHECK(std::abs(moment - curve.states[120 + i].moment) < 1e-9 * scale);
+    CHECK(std::abs(moment + curve.states[80 + i].moment) < 1e-9 * scale);  // the way back mirrors the way there
+  }
 }
 
 TEST_CASE("interaction of an elastic-plastic rectangle is M/Mp = 1 - (N/Np)^2 when strains are large") {
@@ -132,7 +135,8 @@ TEST_CASE("points of interaction just reach a limit, and lie on the moment-curva
       const auto [low, high] = strain_range(section.parts[0], p.deformation);
       CHECK(std::max(-low / limit.shortening, high / limit.elongation) == doctest::Approx(1).epsilon(1e-12));
       const double curvature = std::hypot(p.deformation[1], p.deformation[2]);
-      if (curvature == 0) continue;
+      // beyond yield the axial force alone leaves plastic strain, and the order of loading matters
+      if (curvature == 0 || std::abs(p.force[0]) > fy * 0.3 * 0.2) continue;
       const BendingState s = bend(section, curvature, p.force[0], angle).states.back();
       CHECK(s.moment == doctest::Approx(p.moment).epsilon(1e-6));
       CHECK(p.moment > 0);

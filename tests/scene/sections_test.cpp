@@ -61,7 +61,7 @@ TEST_CASE("tubes have the areas and moments of AISC's HSS, of the design thickne
   const double in2 = 0.0254 * 0.0254, in4 = in2 * in2;
   for (const Row& row : {Row{"[\"6 in\", \"6 in\", \"0.349 in\"]", 7.58, 39.5, 39.5, 64.6},
                          Row{"[\"10 in\", \"6 in\", \"0.465 in\"]", 13.5, 171, 76.8, 176},
-                         Row{"[\"20 in\", \"12 in\", \"0.581 in\"]", 34.0, 1880, 851, 1890}}) {
+                         Row{"[\"20 in\", \"12 in\", \"0.581 in\"]", 35.0, 1880, 851, 1890}}) {
     CAPTURE(row.dimensions);
     const auto s = fibers("tube = " + std::string(row.dimensions) + "\nforming = \"hss\"\nmaterial = \"m\"");
     const AreaMoments m = moments(s.fibers);
@@ -129,7 +129,7 @@ TEST_CASE("angles have the areas and moments of EN 10056, turned to the principa
   const AreaMoments u = moments(fibers(unequal).fibers);
   CHECK(tabulated(1e4 * u.area, 24.2));
   CHECK(tabulated(1e8 * u.second(0, 0), 553));
-  CHECK(tabulated(1e8 * u.second(1, 1), 199));
+  CHECK(tabulated(1e8 * u.second(1, 1), 198));
   CHECK(tabulated(-100 * unequal.outline[0].x(), 4.81));
   CHECK(tabulated(-100 * unequal.outline[0].y(), 2.34));
   CHECK(tabulated(std::tan(0.5 * std::atan2(-2 * u.second(0, 1), u.second(0, 0) - u.second(1, 1))), 0.438));
