@@ -52,14 +52,34 @@ const Elastic elastic{210e9};
 const ElasticPP perfectly_plastic{210e9, 235e6 / 210e9};
 const Steel01 steel01{235e6, 210e9, 0.01};
 const Steel02 steel02{235e6, 210e9, 0.01};
+const Concrete01 concrete01{-30e6, -0.002, -6e6, -0.006};
+const Concrete02 concrete02{-30e6, -0.002, -6e6, -0.006, 0.1, 2.5e6, 2.5e9};
+const Concrete04 concrete04{-30e6, -0.002, -0.006, 25e9, 2e6, 0.001};
+const Hysteretic hysteretic{235e6,    0.00112,  280e6,  0.004,  200e6,   0.02, -235e6, -0.00112, -280e6,
+                            -0.004, -200e6, -0.02, 0.6,   0.3, 0.01, 0.005, 0.3};
+const BoucWen bouc_wen{0.02, 210e9, 2, 4e5, 4e5};
+const IMKBilin imk_bilin{210e9, 0.005, 0.02, 0.1,   235e6, 1.1, 0.3, 0.005, 0.02, 0.1,
+                         235e6, 1.1,   0.3,  1.0, 1.0, 1.0};
 
 BENCHMARK_CAPTURE(run, kernel/Elastic, respond, elastic);
 BENCHMARK_CAPTURE(run, kernel/ElasticPP, respond, perfectly_plastic);
 BENCHMARK_CAPTURE(run, kernel/Steel01, respond, steel01);
 BENCHMARK_CAPTURE(run, kernel/Steel02, respond, steel02);
+BENCHMARK_CAPTURE(run, kernel/Concrete01, respond, concrete01);
+BENCHMARK_CAPTURE(run, kernel/Concrete02, respond, concrete02);
+BENCHMARK_CAPTURE(run, kernel/Concrete04, respond, concrete04);
+BENCHMARK_CAPTURE(run, kernel/Hysteretic, respond, hysteretic);
+BENCHMARK_CAPTURE(run, kernel/BoucWen, respond, bouc_wen);
+BENCHMARK_CAPTURE(run, kernel/IMKBilin, respond, imk_bilin);
 BENCHMARK_CAPTURE(run, scalar/Elastic, respond_scalar, elastic);
 BENCHMARK_CAPTURE(run, scalar/ElasticPP, respond_scalar, perfectly_plastic);
 BENCHMARK_CAPTURE(run, scalar/Steel01, respond_scalar, steel01);
 BENCHMARK_CAPTURE(run, scalar/Steel02, respond_scalar, steel02);
+BENCHMARK_CAPTURE(run, scalar/Concrete01, respond_scalar, concrete01);
+BENCHMARK_CAPTURE(run, scalar/Concrete02, respond_scalar, concrete02);
+BENCHMARK_CAPTURE(run, scalar/Concrete04, respond_scalar, concrete04);
+BENCHMARK_CAPTURE(run, scalar/Hysteretic, respond_scalar, hysteretic);
+BENCHMARK_CAPTURE(run, scalar/BoucWen, respond_scalar, bouc_wen);
+BENCHMARK_CAPTURE(run, scalar/IMKBilin, respond_scalar, imk_bilin);
 
 }  // namespace

@@ -28,6 +28,12 @@ struct Response {
   typename Law::template History<T> history; // at the trial strain
 };
 
+// A piece of a law without memory: stress and tangent [Pa].
+template <class T>
+struct Branch {
+  T stress, tangent;
+};
+
 // Doubles that a point of this law remembers.
 template <class Law>
 constexpr int history_doubles = static_cast<int>(sizeof(typename Law::template History<double>) / sizeof(double));

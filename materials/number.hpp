@@ -1,5 +1,6 @@
 // The number types that uniaxial laws are written for: double, and Lanes (one SIMD register of doubles, Highway).
-// Both know + - * /, comparisons, abs, min, max, select(mask, a, b), pow for positive bases, and all(mask).
+// Both know + - * /, comparisons, abs, min, max, exp, select(mask, a, b), pow for positive bases, and of masks
+// both, either, except (the first and not the second), all.
 #if defined(NSFRAME_MATERIALS_NUMBER_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef NSFRAME_MATERIALS_NUMBER_HPP
 #undef NSFRAME_MATERIALS_NUMBER_HPP
@@ -25,6 +26,9 @@ inline double max(double a, double b) { return std::max(a, b); }
 inline double select(bool mask, double a, double b) { return mask ? a : b; }
 inline bool all(bool mask) { return mask; }
 inline bool both(bool a, bool b) { return a && b; }
+inline bool either(bool a, bool b) { return a || b; }
+inline bool except(bool a, bool b) { return a && !b; }
+inline double exp(double x) { return std::exp(x); }
 // x^p for x >= 0.
 inline double pow(double x, double p) { return std::pow(x, p); }
 // A whole number above the logarithm of x >= 0 to base 2 (its exponent plus one), cheap.
@@ -53,13 +57,18 @@ inline Lanes operator/(Lanes a, Lanes b) { return hn::Div(a.lanes, b.lanes); }
 inline Lanes operator-(Lanes a) { return hn::Neg(a.lanes); }
 inline LaneMask operator<(Lanes a, Lanes b) { return {hn::Lt(a.lanes, b.lanes)}; }
 inline LaneMask operator>(Lanes a, Lanes b) { return {hn::Gt(a.lanes, b.lanes)}; }
+inline LaneMask operator<=(Lanes a, Lanes b) { return {hn::Le(a.lanes, b.lanes)}; }
+inline LaneMask operator>=(Lanes a, Lanes b) { return {hn::Ge(a.lanes, b.lanes)}; }
 inline LaneMask operator==(Lanes a, Lanes b) { return {hn::Eq(a.lanes, b.lanes)}; }
 inline LaneMask both(LaneMask a, LaneMask b) { return {hn::And(a.mask, b.mask)}; }
+inline LaneMask either(LaneMask a, LaneMask b) { return {hn::Or(a.mask, b.mask)}; }
+inline LaneMask except(LaneMask a, LaneMask b) { return {hn::AndNot(b.mask, a.mask)}; }
 inline bool all(LaneMask a) { return hn::AllTrue(LaneTag(), a.mask); }
 inline Lanes abs(Lanes a) { return hn::Abs(a.lanes); }
 inline Lanes min(Lanes a, Lanes b) { return hn::Min(a.lanes, b.lanes); }
 inline Lanes max(Lanes a, Lanes b) { return hn::Max(a.lanes, b.lanes); }
 inline Lanes select(LaneMask mask, Lanes a, Lanes b) { return hn::IfThenElse(mask.mask, a.lanes, b.lanes); }
+inline Lanes exp(Lanes a) { return hn::Exp(LaneTag(), a.lanes); }
 // Below 1e-300 the base counts as 1e-300, so that the logarithm stays finite; the result underflows to zero.
 inline Lanes pow(Lanes x, Lanes p) {
   const LaneTag tag;

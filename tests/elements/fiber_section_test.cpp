@@ -15,7 +15,8 @@ std::vector<Fiber> mixed_fibers() {
   const std::vector<UniaxialLaw> laws{Elastic{30e9}, ElasticPP{210e9, 0.00112, -0.0009, 1e-4}, Steel01{235e6, 210e9, 0.01},
                                       Steel02{235e6, 210e9, 0.01}, Steel02{355e6, 205e9, 0.02, 18.5, 0.925, 0.15, 0.04, 1, 0.02, 1, 20e6},
                                       MinMax{inner(Steel02{235e6, 210e9, 0.01}), -0.01, 0.008}, InitStress{inner(Steel02{235e6, 210e9, 0.01}), 5e7},
-                                      Fatigue{inner(Parallel{{inner(Steel01{235e6, 210e9, 0.01}), inner(ENT{30e9})}}), 0.02}};
+                                      Fatigue{inner(Parallel{{inner(Steel01{235e6, 210e9, 0.01}), inner(ENT{30e9})}}), 0.02},
+                                      Concrete02{-30e6, -0.002, -6e6, -0.006}, Concrete04{-30e6, -0.002, -0.006, 25e9, 2e6, 0.001}};
   std::vector<Fiber> fibers;
   for (int i = 0; i < 53; ++i) {
     fibers.push_back({0.01 * (i % 11 - 5), 0.012 * (i % 7 - 3), 1e-4 * (1 + i % 3), laws[static_cast<std::size_t>(i) % laws.size()]});
@@ -50,7 +51,7 @@ double largest_difference(const FiberSection& section) {
 TEST_CASE("the SIMD kernel equals the scalar fibers on every instruction set of this machine") {
   const FiberSection section(mixed_fibers(), 1e4);
   CHECK(section.fibers == 53);
-  CHECK(section.blocks.size() == 8);
+  CHECK(section.blocks.size() == 10);
   const auto supported = hwy::SupportedTargets();
   for (auto target = supported; target != 0; target &= target - 1) {
     const auto lowest = target & (~target + 1);

@@ -36,6 +36,67 @@ E = "210 GPa"
 law = "ElasticPP"
 E = "210 GPa"
 epsyP = 1e-3
+[material.concrete1]
+law = "Concrete01"
+fpc = "-30 MPa"
+epsc0 = -0.002
+fpcu = "-6 MPa"
+epsU = -0.006
+[material.concrete2]
+law = "Concrete02"
+fpc = "-30 MPa"
+epsc0 = -0.002
+fpcu = "-6 MPa"
+epsU = -0.006
+ft = "2.5 MPa"
+[material.concrete4]
+law = "Concrete04"
+fc = "-30 MPa"
+ec = -0.002
+ecu = -0.006
+Ec = "25 GPa"
+fct = "2 MPa"
+et = 0.001
+[material.pinched]
+law = "Hysteretic"
+s1p = "200 MPa"
+e1p = 0.001
+s2p = "260 MPa"
+e2p = 0.01
+s3p = "210 MPa"
+e3p = 0.03
+s1n = "-200 MPa"
+e1n = -0.001
+s2n = "-260 MPa"
+e2n = -0.01
+pinchX = 0.7
+pinchY = 0.3
+damage1 = 0.01
+[material.smooth]
+law = "BoucWen"
+alpha = 0.1
+ko = "200 GPa"
+n = 2
+gamma = 1e5
+beta = 1e5
+[material.deteriorating]
+law = "IMKBilin"
+Ke = "200 GPa"
+dp_pos = 0.01
+dpc_pos = 0.02
+du_pos = 0.1
+Fy_pos = "200 MPa"
+FmaxFy_pos = 1.1
+FresFy_pos = 0.3
+dp_neg = 0.01
+dpc_neg = 0.02
+du_neg = 0.1
+Fy_neg = "200 MPa"
+FmaxFy_neg = 1.1
+FresFy_neg = 0.3
+Lamda_S = 1
+Lamda_C = 1
+Lamda_K = 0
 [material."steel 1"]
 law = "Steel01"
 fy = "235 MPa"
