@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "elements/fiber_results.hpp"
 #include "elements/sections.hpp"
 
 namespace nsframe {
@@ -28,7 +29,7 @@ struct SectionResult {
   double position = 0;            // along the element, in [0, 1]
   Vector3 deformation = Vector3::Zero();  // e0 [-], kz, ky [1/m]
   Vector3 force = Vector3::Zero();        // N [N], Mz, My [N m]
-  double peak_strain_ratio = 0;   // largest |strain| of a fiber over its yield strain, at present
+  double peak_strain_ratio = 0;   // largest |strain| of a fiber over its yield strain, at present (no envelope)
   double yielded = 0;             // 1 when a fiber carries plastic strain, else 0
 };
 
@@ -68,6 +69,12 @@ class ElementGroup {
   virtual ElementShape shape(int element) const = 0;
   // Results at the integration points; empty for elements without sections. `history` as left by respond().
   virtual std::vector<SectionResult> sections(int element, const Vector12& displacement, const double* history) const {
+    (void)element; (void)displacement; (void)history;
+    return {};
+  }
+  // The fibers at the integration points, point by point, and their states in that order; empty without fibers.
+  virtual std::vector<FiberPlace> fiber_places(int element) const { (void)element; return {}; }
+  virtual std::vector<FiberState> fiber_states(int element, const Vector12& displacement, const double* history) const {
     (void)element; (void)displacement; (void)history;
     return {};
   }

@@ -28,6 +28,29 @@ SectionResult FiberBeams::section_result(int element, int point, const Vector3& 
   return result;
 }
 
+std::vector<FiberPlace> FiberBeams::fiber_places(int element) const {
+  std::vector<FiberPlace> places;
+  for (int point = 0; point < points(); ++point) {
+    for (FiberPlace place : nsframe::fiber_places(*element_at(element).section)) {
+      place.point = point;
+      place.position = rule_.position[static_cast<std::size_t>(point)];
+      places.push_back(place);
+    }
+  }
+  return places;
+}
+
+std::vector<FiberState> FiberBeams::fiber_states(int element, const Vector12& displacement, const double* history) const {
+  std::vector<FiberState> states;
+  const std::vector<SectionResult> results = sections(element, displacement, history);
+  for (int point = 0; point < points(); ++point) {
+    const Vector3& deformation = results[static_cast<std::size_t>(point)].deformation;
+    const auto at_point = nsframe::fiber_states(*element_at(element).section, deformation, section_history(element, history, point));
+    states.insert(states.end(), at_point.begin(), at_point.end());
+  }
+  return states;
+}
+
 Matrix6 with_torsion(const Matrix5& stiffness, double torsion) {
   Matrix6 all = Matrix6::Zero();
   all.topLeftCorner<5, 5>() = stiffness;

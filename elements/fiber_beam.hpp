@@ -27,6 +27,8 @@ class FiberBeams : public ElementGroup {
   bool symmetric() const override { return !p_delta_; }
   int history_begin(int element) const override { return history_begin_[static_cast<std::size_t>(element)]; }
   ElementShape shape(int element) const override;
+  std::vector<FiberPlace> fiber_places(int element) const override;
+  std::vector<FiberState> fiber_states(int element, const Vector12& displacement, const double* history) const override;
   int points() const { return static_cast<int>(rule_.position.size()); }
   int fibers(int element) const { return points() * element_at(element).section->fibers; }
 

@@ -43,8 +43,10 @@ FiberSection::FiberSection(const std::vector<Fiber>& all, double gj) : torsion_s
       y.push_back(fiber->y);
       z.push_back(fiber->z);
       area.push_back(fiber->area);
+      material.push_back(fiber->material);
     }
     for (auto* column : {&y, &z, &area}) column->resize(static_cast<std::size_t>(block.first + block.count), 0.0);
+    material.resize(y.size());
     history_size += block.count * nsframe::history_size(block.law);
     fibers += block.fibers;
     blocks.push_back(block);
@@ -117,17 +119,29 @@ double peak_strain_ratio(const FiberSection& section, const Vector3& deformation
   return peak;
 }
 
-bool has_yielded(const FiberSection& section, const Vector3& deformation, const double* committed) {
-  bool yielded = false;
+std::vector<FiberPlace> fiber_places(const FiberSection& section) {
+  std::vector<FiberPlace> places;
+  for_each_fiber(section, [&](const FiberBlock&, std::size_t i, int, int) {
+    places.push_back({0, 0, section.y[i], section.z[i], section.area[i], section.material[i]});
+  });
+  return places;
+}
+
+std::vector<FiberState> fiber_states(const FiberSection& section, const Vector3& deformation, const double* committed) {
+  std::vector<FiberState> states;
+  states.reserve(static_cast<std::size_t>(section.fibers));
   double before[max_history], after[max_history];
   for_each_fiber(section, [&](const FiberBlock& block, std::size_t i, int begin, int stride) {
-    if (yielded || is_linear(block.law)) return;
     gather(committed + begin, stride, history_size(block.law), before);
-    const double strain = strain_at(section, deformation, i);
-    const double stress = respond(block.law, strain, before, after).stress;
-    yielded = has_yielded(block.law, strain, stress);
+    const double strain = strain_at(section, deformation, i), stress = respond(block.law, strain, before, after).stress;
+    states.push_back({strain, stress, has_yielded(block.law, strain, stress)});
   });
-  return yielded;
+  return states;
+}
+
+bool has_yielded(const FiberSection& section, const Vector3& deformation, const double* committed) {
+  const std::vector<FiberState> states = fiber_states(section, deformation, committed);
+  return std::any_of(states.begin(), states.end(), [](const FiberState& state) { return state.yielded; });
 }
 
 }  // namespace nsframe

@@ -2,9 +2,11 @@
 // strain(y, z) = e0 - y kz + z ky;  N = sum s A, Mz = -sum s A y, My = sum s A z  (theory.md, "Sections").
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "base/types.hpp"
+#include "elements/fiber_results.hpp"
 #include "materials/uniaxial.hpp"
 
 namespace nsframe {
@@ -19,6 +21,7 @@ struct Fiber {
   double y = 0, z = 0;   // [m]
   double area = 0;       // [m2]
   UniaxialLaw law;
+  std::string material = {};  // its name, for the output
 };
 
 struct FiberBlock {
@@ -32,6 +35,7 @@ inline constexpr int fiber_padding = 8;  // doubles in the widest SIMD register 
 
 struct FiberSection {
   std::vector<double> y, z, area;
+  std::vector<std::string> material;  // names; empty ones at the padding
   std::vector<FiberBlock> blocks;
   double torsion_stiffness = 0;  // GJ [N m2]
   int history_size = 0;          // doubles
@@ -63,7 +67,12 @@ Matrix3 initial_tangent(const FiberSection& section);
 // Largest |strain| of a fiber over its yield strain at `deformation` (0 if no fiber can yield).
 double peak_strain_ratio(const FiberSection& section, const Vector3& deformation);
 
-// True when the plastic strain |e - s/E| of a fiber exceeds a tenth of its yield strain; `committed` as for respond().
+// The fibers of a section (without point and position), block by block, and their states in the same order. `committed`
+// as for respond(). All output of single fibers comes from here.
+std::vector<FiberPlace> fiber_places(const FiberSection& section);
+std::vector<FiberState> fiber_states(const FiberSection& section, const Vector3& deformation, const double* committed);
+
+// True when one of the fiber_states() has yielded.
 bool has_yielded(const FiberSection& section, const Vector3& deformation, const double* committed);
 
 }  // namespace nsframe

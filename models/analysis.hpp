@@ -1,6 +1,8 @@
 // What to compute and what to keep: options of the time history and of the output, with their defaults.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,12 +25,23 @@ struct AnalysisOptions {
   int threads = 1;
 };
 
+// Oscillators on floors, or other nodes, and what they show.
+struct FloorSpectraOptions {
+  std::vector<std::string> nodes{"floors"};  // "structure.node", or "floors": centres of the slabs
+  std::vector<double> periods;               // [s]; empty: 60 from 0.02 to 4 s, evenly spaced in logarithm
+  double damping = 0.05;                     // ratio
+};
+
+// Histories that can be kept.
+inline constexpr std::array<const char*, 7> history_names{"nodes", "contacts", "elements", "sections", "fibers", "energy", "ground"};
+
 struct OutputOptions {
   double frames = 0;                   // [Hz] of ParaView frames; 0: none
   double history_rate = 0;             // [Hz] of histories; 0: every step
-  // histories to keep: "nodes", "contacts", "elements", "sections", "energy", "ground"
-  std::vector<std::string> history;
+  std::vector<std::string> history;    // of history_names
   std::vector<std::string> nodes;      // "structure.node" to keep; empty: all
+  std::vector<std::string> fibers;     // "structure.element", or "structure.element:point"; empty: all
+  std::optional<FloorSpectraOptions> floor_spectra;
   double amplification = 1;            // of the displacements stored in the frames (Warp By Vector scales further)
   double checkpoint = 60;              // [s] of wall-clock time between checkpoints; 0: only when the run ends
 };

@@ -52,7 +52,7 @@ Library::Section resolve(const SectionDescription& section, const Materials& mat
       continue;
     }
     if (!(fiber.area > 0)) diagnostics.error(section.at, fmt::format("section '{}': a fiber's area must be positive", section.name));
-    fibers.push_back({fiber.y, fiber.z, fiber.displaced ? -fiber.area : fiber.area, law->second});
+    fibers.push_back({fiber.y, fiber.z, fiber.displaced ? -fiber.area : fiber.area, law->second, fiber.material.name});
   }
   if (description.fibers.empty()) diagnostics.error(section.at, fmt::format("section '{}' has no fibers", section.name));
   if (!(description.torsion_stiffness > 0)) {

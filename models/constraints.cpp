@@ -72,7 +72,7 @@ DofMap build_dof_map(const std::vector<bool>& fixed, const std::vector<NodeConst
     for (int k = 0; k < 6; ++k) {
       if (!c.constrained[static_cast<std::size_t>(k)]) continue;
       const auto dof = static_cast<std::size_t>(6 * c.slave + k);
-      const char* name = node_dof_names[static_cast<std::size_t>(k)];
+      const std::string_view name = node_dof_names[static_cast<std::size_t>(k)];
       if (of_dof[dof]) {
         diagnostics.error(c.at, fmt::format("{} of node '{}' is already tied by another constraint", name, slave));
       } else if (fixed[dof]) {

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <array>
+#include <string_view>
 
 namespace nsframe {
 
-inline constexpr std::array<const char*, 6> node_dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
+inline constexpr std::array<std::string_view, 6> node_dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 
 }  // namespace nsframe

@@ -41,6 +41,13 @@ struct Pounding {
   int impacts = 0;
 };
 
+// The part of a step's change of velocity that impacts made, J^-1 H' p, and when it acts on the displacements. What is
+// left of the change is smooth: accelerations come from that, jumps stay jumps.
+struct VelocityJump {
+  double time = 0;             // [s]
+  VectorX change;              // free DOFs [m/s, rad/s]
+};
+
 struct StepReport {
   int step = 0;                // of the user's dt, from 1
   int substeps = 1;            // more than 1 where Newton failed and the step was halved
@@ -48,6 +55,7 @@ struct StepReport {
   int active_pairs = 0;
   double residual = 0;         // relative, at the end
   double complementarity_error = 0;
+  std::vector<VelocityJump> jumps;  // in the order of time
 };
 
 struct Snapshot;
@@ -98,6 +106,15 @@ struct StoryDrift {
   Vector2 drift = Vector2::Zero();
 };
 
+// Largest values of a floor spectrum.
+struct FloorSpectrumPeak {
+  std::string node;
+  int direction = 0;                          // 0, 1, 2: x, y, z
+  double level = 0;                           // z of the node [m]
+  double psa = 0, psa_period = 0;             // pseudo-acceleration [m/s2] and where it is [s]
+  double psv = 0, psv_period = 0;             // pseudo-velocity [m/s], [s]
+};
+
 struct Timing {
   double setup = 0, step_loop = 0, output = 0;  // [s]
 };
@@ -114,6 +131,8 @@ struct Summary {
   std::vector<Pounding> poundings;
   std::vector<Peak> peaks;
   std::vector<StoryDrift> drifts;
+  std::vector<FloorSpectrumPeak> floor_spectra;
+  double floor_spectra_damping = 0;               // [-]
   Energy energy;
   double worst_balance_error = 0;                 // over the run, relative to the largest energy [-]
   double max_penetration = 0;                     // [m]

@@ -2,8 +2,8 @@
 """Checks that includes are written from the root and point one way only:
 
     base <- materials <- elements <- models <- assembly <- integrators <- app
-    contact: base, models/contacts.hpp     modal: base     integrators: also contact
-    scene: base .. models                  output: base .. models     app, tests, bench: anything
+    contact: base, models/contacts.hpp     modal: base     spectra: base     integrators: also contact
+    scene: base .. models     output: base .. models, spectra     app, tests, bench: anything
 
 A test or a bench may also name a helper in its own folder without a path.
 
@@ -22,7 +22,8 @@ ALLOWED["integrators"] |= {"contact", "modal"}
 ALLOWED["contact"] = {"base", "contact", "models/contacts.hpp"}
 ALLOWED["modal"] = {"base", "modal"}
 ALLOWED["scene"] = set(CHAIN[:4]) | {"scene"}
-ALLOWED["output"] = set(CHAIN[:4]) | {"output"}
+ALLOWED["spectra"] = {"base", "spectra"}
+ALLOWED["output"] = set(CHAIN[:4]) | {"output", "spectra"}
 ANYTHING = {"app", "tests", "bench"}
 AT_ROOT = {"materials", "elements", "models", "tests", "bench"}  # the others are below src/
 FOLDERS = set(ALLOWED) | ANYTHING

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/errors.hpp"
+#include "models/fiber_selection.hpp"
 
 namespace nsframe::app {
 
@@ -22,6 +23,9 @@ LoadedScene load(const SceneArguments& arguments) {
   }
   if (arguments.threads > 0) loaded.scene.analysis.threads = arguments.threads;
   loaded.model = build_model(loaded.scene.model, diagnostics);
+  std::vector<std::string> faults;
+  choose_fibers(loaded.model, loaded.scene.output.fibers, faults);
+  for (const std::string& fault : faults) diagnostics.error(loaded.scene.places.at("output.fibers"), fault);
   diagnostics.throw_if_any();
   return loaded;
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <csignal>
+#include <optional>
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
@@ -8,6 +9,7 @@
 #include "base/errors.hpp"
 #include "base/timer.hpp"
 #include "output/drifts.hpp"
+#include "output/floor_spectra.hpp"
 #include "output/history_file.hpp"
 #include "output/peaks.hpp"
 #include "output/poundings.hpp"
@@ -104,9 +106,12 @@ int run(const SceneArguments& arguments) {
 
   PeakTracker peaks(loaded.scene.output.nodes);
   DriftTracker drifts;
-  HistoryFile history(folder / "results.h5", loaded.scene.output, complete);
+  std::optional<FloorSpectra> spectra;
+  if (loaded.scene.output.floor_spectra) spectra.emplace(*loaded.scene.output.floor_spectra, loaded.scene.analysis.dt);
+  HistoryFile history(folder / "results.h5", loaded.scene.output, complete, spectra ? &*spectra : nullptr);
   ProgressBar progress(simulation.duration(), arguments.quiet);
   std::vector<Observer*> observers{&peaks, &drifts, &history, &progress};
+  if (spectra) observers.push_back(&*spectra);
   const bool wants_frames = loaded.scene.output.frames > 0;
 #ifdef NSFRAME_HAS_VTK
   VtkFrames frames(folder, loaded.scene.output);
@@ -125,6 +130,11 @@ int run(const SceneArguments& arguments) {
   summary.drifts = drifts.drifts();
   add_participation(simulation.modes(), summary);
   summary.warnings = numerical_warnings(summary);
+  if (spectra) {
+    summary.floor_spectra = spectra->peaks();
+    summary.floor_spectra_damping = spectra->damping();
+    for (std::string& warning : spectrum_warnings(*spectra, summary.dt)) summary.warnings.push_back(std::move(warning));
+  }
   for (std::string& warning : contact_warnings(loaded.model, summary)) summary.warnings.push_back(std::move(warning));
   write_summary(summary, folder / "summary.json");
   if (!arguments.quiet) {

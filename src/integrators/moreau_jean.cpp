@@ -73,9 +73,13 @@ void MoreauJean::update_velocity(const System& system, State& trial, StepResult&
                                        contacts.pairs[static_cast<std::size_t>(active_[static_cast<std::size_t>(worst)])].name));
   }
   impulse_ = std::move(solution.impulse);
+  contact_change_.resize(0);
   for (Eigen::Index a = 0; a < count; ++a) {
-    if (impulse_[a] != 0) trial.velocity += impulse_[a] * matrix_.response(contacts, active_[static_cast<std::size_t>(a)]);
+    if (impulse_[a] == 0) continue;
+    if (contact_change_.size() == 0) contact_change_.setZero(trial.velocity.size());
+    contact_change_ += impulse_[a] * matrix_.response(contacts, active_[static_cast<std::size_t>(a)]);
   }
+  if (contact_change_.size() > 0) trial.velocity += contact_change_;
 }
 
 double MoreauJean::residual_norm(const System& system) const {
@@ -100,6 +104,8 @@ void MoreauJean::fail(const System& system, const State& committed, double resid
 
 void MoreauJean::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result.impacts.clear();
+  result.jumps.clear();
+  contact_change_.resize(0);
   find_active_pairs(system, committed, h, result);
   result.active_pairs = static_cast<int>(active_.size());
   impulse_ = VectorX::Zero(result.active_pairs);
@@ -156,6 +162,8 @@ void MoreauJean::report(const System& system, const State& committed, State& tri
     result.impacts.push_back({trial.time, pair, -before, p, before, after});
   }
   result.numerical *= options_.theta - 0.5;
+  // q+ = q + h v + theta h (v+ - v): as if the velocity jumped here
+  if (contact_change_.size() > 0) result.jumps.push_back({committed.time + (1 - options_.theta) * h, contact_change_});
 }
 
 Scheme::ModeResponse MoreauJean::mode_response(double w, double xi, double h) const {

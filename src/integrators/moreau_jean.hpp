@@ -38,7 +38,8 @@ class MoreauJean : public Scheme {
   std::vector<int> active_;
   VectorX gap_, rate_;                // at the start of the step
   VectorX impulse_;                   // of the active pairs
-  VectorX load_, free_residual_, mid_velocity_, momentum_change_, correction_, contact_impulse_;
+  VectorX load_, free_residual_, mid_velocity_, momentum_change_, correction_;
+  VectorX contact_change_;            // of the velocity, by the impulses; empty without
 };
 
 }  // namespace nsframe

@@ -21,6 +21,7 @@ struct StepResult {
   double complementarity_error = 0;
   double least_gap = 0;              // at the start of the step [m]
   std::vector<Impact> impacts;
+  std::vector<VelocityJump> jumps;   // in the order of time
   // increments over the step [J]; kinetic and strain energy are those of Energy
   double strain = 0, damping = 0, contact = 0, numerical = 0, input = 0;
 };

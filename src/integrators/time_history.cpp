@@ -115,6 +115,7 @@ void TimeHistory::add(const StepResult& step) {
   result_.energy.numerical += step.numerical;
   result_.energy.input += step.input;
   step_impacts_.insert(step_impacts_.end(), step.impacts.begin(), step.impacts.end());
+  report_.jumps.insert(report_.jumps.end(), step.jumps.begin(), step.jumps.end());
 }
 
 void TimeHistory::watch_energy(const State& state) {

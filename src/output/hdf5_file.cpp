@@ -215,10 +215,11 @@ void Hdf5File::write_texts(const std::string& name, const std::vector<std::strin
   if (!texts.empty()) check(H5Dwrite(data, text_type_, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers(texts).data()), name);
 }
 
-void Hdf5File::write_numbers(const std::string& name, const std::vector<double>& values) {
+void Hdf5File::write_numbers(const std::string& name, const std::vector<double>& values, std::vector<hsize_t> shape) {
   remove(name);
   const QuietHdf5 quiet;
-  const Hdf5Id space = simple_space(values.size());
+  if (shape.empty()) shape = {values.size()};
+  const Hdf5Id space(check(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), name), H5Sclose);
   const Hdf5Id properties = data_set_properties();
   const Hdf5Id data(
       check(H5Dcreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, H5P_DEFAULT), name),

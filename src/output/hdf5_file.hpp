@@ -70,7 +70,8 @@ class Hdf5File {
   void make_group(const std::string& name);
   void write_text(const std::string& name, const std::string& text);
   void write_texts(const std::string& name, const std::vector<std::string>& texts);
-  void write_numbers(const std::string& name, const std::vector<double>& values);
+  // `shape`: of the data set, row by row; by default one-dimensional
+  void write_numbers(const std::string& name, const std::vector<double>& values, std::vector<hsize_t> shape = {});
   // Attributes of an existing object.
   void set_attribute(const std::string& object, const std::string& name, const std::string& text);
   void set_attribute(const std::string& object, const std::string& name, const std::vector<std::string>& texts);

@@ -24,7 +24,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::size_t block_bytes = 1U << 18U;  // of the widest data set
 constexpr double flush_interval = 5;            // [s] of wall time, for runs with slow steps
 
-const std::vector<std::string> known_histories{"nodes", "contacts", "elements", "sections", "energy", "ground"};
+const std::vector<std::string> known_histories(history_names.begin(), history_names.end());
 
 void check_names(const std::vector<std::string>& histories) {
   std::string errors;
@@ -40,8 +40,8 @@ void check_names(const std::vector<std::string>& histories) {
 
 class HistoryFile::Writer {
  public:
-  Writer(std::filesystem::path path, const OutputOptions& options, std::string scene_text)
-      : path_(std::move(path)), options_(options), scene_(std::move(scene_text)), clock_(options.history_rate) {
+  Writer(std::filesystem::path path, const OutputOptions& options, std::string scene_text, const FloorSpectra* spectra)
+      : path_(std::move(path)), options_(options), scene_(std::move(scene_text)), spectra_(spectra), clock_(options.history_rate) {
     check_names(options_.history);
   }
   ~Writer();
@@ -69,6 +69,7 @@ class HistoryFile::Writer {
   std::filesystem::path path_;
   OutputOptions options_;
   std::string scene_;
+  const FloorSpectra* spectra_;
   SampleClock clock_;
   const Model* model_ = nullptr;
   std::optional<Hdf5File> file_;  // before the series, which refer to it
@@ -105,6 +106,7 @@ void HistoryFile::Writer::open(const Model& model, const State& state, Hdf5File:
   if (asked("nodes")) parts_.push_back(node_history(model, options_.nodes));
   if (asked("elements")) parts_.push_back(member_history(model));
   if (asked("sections")) parts_.push_back(section_history(model, state));
+  if (asked("fibers")) parts_.push_back(fiber_history(model, options_.fibers));
   if (asked("contacts")) parts_.push_back(contact_history(model));
   if (asked("energy")) parts_.push_back(energy_history());
   if (asked("ground")) parts_.push_back(ground_history(model));
@@ -182,6 +184,7 @@ void HistoryFile::Writer::resume(const Model& model, const State& state, const S
   for (auto& part : parts_) part->truncate(rows);
   impact_rows_->truncate(impacts_.size());
   file_->remove("/poundings");
+  file_->remove("/floor_spectra");
   last_write_ = Clock::now();
   file_->flush();
 }
@@ -191,6 +194,7 @@ void HistoryFile::Writer::finish() {
   write_block();
   write_poundings(*file_, merge_impacts(impacts_));
   write_final_energy(*file_, energy_);
+  if (spectra_) write_floor_spectra(*file_, *spectra_);
   mark_finished(*file_);
   parts_.clear();
   impact_rows_.reset();
@@ -199,8 +203,9 @@ void HistoryFile::Writer::finish() {
   file_.reset();
 }
 
-HistoryFile::HistoryFile(std::filesystem::path path, const OutputOptions& options, std::string scene_text)
-    : writer_(std::make_unique<Writer>(std::move(path), options, std::move(scene_text))) {}
+HistoryFile::HistoryFile(std::filesystem::path path, const OutputOptions& options, std::string scene_text,
+                         const FloorSpectra* spectra)
+    : writer_(std::make_unique<Writer>(std::move(path), options, std::move(scene_text), spectra)) {}
 
 HistoryFile::~HistoryFile() = default;
 

@@ -10,23 +10,29 @@
 
 namespace nsframe {
 
+class FloorSpectra;
+
 // Layout (n rows of time, the first is the initial state; units and component names are attributes):
 //   /time (n)
 //   /nodes/id (m); displacement, velocity, acceleration_absolute (n, m, 6)
 //   /elements/<kind>/id (k); forces (n, k, 12) in local axes, acting on the ends
 //   /sections/<kind>/element (p), position (p); deformation, force (n, p, 3); peak_strain_ratio, yielded (n, p)
+//   /fibers/<kind>/element, point, position, y, z, area, material (f); strain, stress, yielded (n, f)
 //   /contacts/pair (c); gap, impulse (n, c), the impulse since the row before
 //   /energy/kinetic, strain, damping, contact, numerical, input, balance_error (n); final values as attributes
 //   /ground/acceleration, velocity (n, 3)
 //   /impacts/time, pair, approach_velocity, impulse, rate_before, rate_after (i)
 //   /poundings/time, duration, pair, approach_velocity, impulse, effective_restitution, impacts
+//   /floor_spectra/node (m), period (p); displacement, pseudo_velocity, pseudo_acceleration (m, 3, p), along x, y, z
 //   /scene, the complete scene as text; attributes program, version, finished
 // Only histories named in OutputOptions::history have rows; without any, a step costs nothing.
 // Rows are written in blocks and flushed, so that after a crash everything but the last block is readable, and a run
 // can be resumed from its last snapshot.
 class HistoryFile : public Observer {
  public:
-  HistoryFile(std::filesystem::path path, const OutputOptions& options, std::string scene_text);
+  // `spectra`: to write when the run ends; may be null.
+  HistoryFile(std::filesystem::path path, const OutputOptions& options, std::string scene_text,
+              const FloorSpectra* spectra = nullptr);
   ~HistoryFile() override;
 
   // Creates the file; an earlier one at `path` is replaced here, not before.

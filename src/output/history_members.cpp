@@ -122,6 +122,10 @@ class SectionPart : public HistoryPart {
       add_series(file, folder + "/force", {points, 3}, block, "N, N m, N m", {"N", "MZ", "MY"});
       add_series(file, folder + "/peak_strain_ratio", {points}, block, "1");
       add_series(file, folder + "/yielded", {points}, block, "1");
+      file.set_attribute(folder + "/peak_strain_ratio", "description",
+                         "largest strain of a fiber over its yield strain, at that time (not an envelope)");
+      file.set_attribute(folder + "/yielded", "description",
+                         "1 where a fiber's plastic strain exceeds a tenth of its yield strain, else 0");
     }
   }
 

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "models/dof_names.hpp"
 #include "output/node_rows.hpp"
 
 namespace nsframe {
 namespace {
 
-const std::vector<std::string> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
+const std::vector<std::string> dof_names(node_dof_names.begin(), node_dof_names.end());
 
 class NodePart : public HistoryPart {
  public:
@@ -193,6 +194,32 @@ void write_final_energy(Hdf5File& file, const Energy& energy) {
   file.set_attribute("/energy", "initial", energy.initial);
   file.set_attribute("/energy", "balance_error", energy.balance_error());
   file.set_attribute("/energy", "units", "J");
+}
+
+void write_floor_spectra(Hdf5File& file, const FloorSpectra& spectra) {
+  const std::string folder = "/floor_spectra";
+  file.make_group(folder);
+  file.set_attribute(folder, "damping", spectra.damping());
+  file.write_texts(folder + "/node", spectra.nodes());
+  file.write_numbers(folder + "/period", spectra.periods());
+  file.set_attribute(folder + "/period", "units", "s");
+  const std::vector<hsize_t> shape{spectra.nodes().size(), 3, spectra.periods().size()};
+  const auto column = [&](const char* name, const char* units, const char* description, auto value) {
+    std::vector<double> all;
+    for (std::size_t node = 0; node < spectra.nodes().size(); ++node) {
+      for (int direction = 0; direction < 3; ++direction) {
+        const std::vector<double> values = value(spectra.displacement(node, direction));
+        all.insert(all.end(), values.begin(), values.end());
+      }
+    }
+    file.write_numbers(folder + name, all, shape);
+    file.set_attribute(folder + name, "units", units);
+    file.set_attribute(folder + name, "components", std::vector<std::string>{"x", "y", "z"});
+    file.set_attribute(folder + name, "description", description);
+  };
+  column("/displacement", "m", "largest, relative to the floor", [](const auto& peak) { return peak; });
+  column("/pseudo_velocity", "m/s", "2 pi / period times displacement", [&](const auto& peak) { return pseudo_velocity(spectra.periods(), peak); });
+  column("/pseudo_acceleration", "m/s2", "(2 pi / period)^2 times displacement", [&](const auto& peak) { return pseudo_acceleration(spectra.periods(), peak); });
 }
 
 void mark_finished(Hdf5File& file) { file.set_attribute("/", "finished", 1.0); }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "models/results.hpp"
+#include "output/floor_spectra.hpp"
 #include "output/hdf5_file.hpp"
 
 namespace nsframe {
@@ -41,6 +42,8 @@ class HistoryPart {
 std::unique_ptr<HistoryPart> node_history(const Model& model, const std::vector<std::string>& nodes);
 std::unique_ptr<HistoryPart> member_history(const Model& model);
 std::unique_ptr<HistoryPart> section_history(const Model& model, const State& state);
+// `elements`: as choose_fibers() reads them. Throws InputError for wrong ones.
+std::unique_ptr<HistoryPart> fiber_history(const Model& model, const std::vector<std::string>& elements);
 std::unique_ptr<HistoryPart> contact_history(const Model& model);
 std::unique_ptr<HistoryPart> energy_history();
 std::unique_ptr<HistoryPart> ground_history(const Model& model);
@@ -60,6 +63,7 @@ class ImpactRows {
 
 void write_poundings(Hdf5File& file, const std::vector<Pounding>& poundings);
 void write_final_energy(Hdf5File& file, const Energy& energy);
+void write_floor_spectra(Hdf5File& file, const FloorSpectra& spectra);
 void mark_finished(Hdf5File& file);
 
 }  // namespace nsframe

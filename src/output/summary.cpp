@@ -73,6 +73,20 @@ Json drifts_json(const Summary& summary) {
   return list;
 }
 
+Json floor_spectra_json(const Summary& summary) {
+  Json list = Json::array();
+  for (const auto& peak : summary.floor_spectra) {
+    list.push_back({{"node", peak.node},
+                    {"direction", std::string(1, static_cast<char>('x' + peak.direction))},
+                    {"damping", summary.floor_spectra_damping},
+                    {"psa", peak.psa},
+                    {"psa_period", peak.psa_period},
+                    {"psv", peak.psv},
+                    {"psv_period", peak.psv_period}});
+  }
+  return list;
+}
+
 Json energy_json(const Summary& summary) {
   const Energy& energy = summary.energy;
   return {{"kinetic", energy.kinetic},
@@ -228,6 +242,7 @@ std::string summary_json(const Summary& summary) {
       {"poundings", poundings_json(summary)},
       {"peaks", peaks_json(summary)},
       {"drifts", drifts_json(summary)},
+      {"floor_spectra", floor_spectra_json(summary)},
       {"energy", energy_json(summary)},
       {"max_penetration", summary.max_penetration},
       {"max_complementarity_error", summary.max_complementarity_error},

@@ -150,6 +150,24 @@ void put_drifts(Buffer& out, const Summary& summary) {
   if (summary.drifts.size() > rows) line(out, "  ... and {} more", summary.drifts.size() - rows);
 }
 
+void put_floor_spectra(Buffer& out, const Summary& summary) {
+  if (summary.floor_spectra.empty()) return;
+  double most = 0;
+  for (const FloorSpectrumPeak& peak : summary.floor_spectra) most = std::max(most, peak.psa);
+  std::vector<FloorSpectrumPeak> shown = summary.floor_spectra;
+  std::erase_if(shown, [most](const FloorSpectrumPeak& peak) { return peak.psa < 1e-6 * most; });
+  line(out, "\nLargest values of the floor spectra ({:g} % damping; impacts as jumps of velocity)", 100 * summary.floor_spectra_damping);
+  line(out, "  {:<24} {:>9}  {:>9}  {:>11}  {:>9}  {:>9}  {:>9}", "node", "direction", "PSA, m/s2", "PSA, g", "at T, s", "PSV, m/s",
+       "at T, s");
+  const std::size_t rows = std::min(most_rows, shown.size());
+  for (std::size_t i = 0; i < rows; ++i) {
+    const FloorSpectrumPeak& p = shown[i];
+    line(out, "  {:<24} {:>9}  {:>9.3f}  {:>11.3f}  {:>9.3f}  {:>9.3f}  {:>9.3f}", shortened(p.node, 24),
+         std::string(1, static_cast<char>('x' + p.direction)), p.psa, p.psa / 9.80665, p.psa_period, p.psv, p.psv_period);
+  }
+  if (shown.size() > rows) line(out, "  ... and {} more", shown.size() - rows);
+}
+
 void put_energy(Buffer& out, const Summary& summary) {
   const Energy& e = summary.energy;
   line(out, "\nEnergy at the end, J");
@@ -207,6 +225,7 @@ std::string summary_text(const Summary& summary) {
   put_poundings(out, summary);
   put_peaks(out, summary);
   put_drifts(out, summary);
+  put_floor_spectra(out, summary);
   put_modes(out, summary);
   put_energy(out, summary);
   put_solution(out, summary);

@@ -105,11 +105,17 @@ void check(TableReader& table, const MotionTable& motion) {
   if (motion.pga && motion.factor) table.error("factor", "a motion has either pga or factor");
 }
 
+void check(TableReader& table, const FloorSpectraOptions& spectra) {
+  if (spectra.nodes.empty()) table.error("nodes", "floor spectra need nodes; \"floors\" stands for all floors");
+}
+
 void check(TableReader& table, const OutputOptions& output) {
-  static const std::vector<std::string> known{"nodes", "contacts", "elements", "sections", "energy", "ground"};
+  static const std::vector<std::string> known(history_names.begin(), history_names.end());
   for (const std::string& name : output.history)
     if (std::find(known.begin(), known.end(), name) == known.end())
       table.error("history", fmt::format("there is no history '{}'{}", name, did_you_mean(name, known)));
+  if (!output.fibers.empty() && std::find(output.history.begin(), output.history.end(), "fibers") == output.history.end())
+    table.error("fibers", "to keep fibers, history needs \"fibers\"");
 }
 
 }  // namespace nsframe

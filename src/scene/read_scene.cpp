@@ -62,10 +62,16 @@ void check_output_nodes(const Scene& scene, Diagnostics& diagnostics) {
   for (const StructureDescription& structure : scene.model.structures)
     for (const NodeDescription& node : structure.nodes) known.push_back(structure.name + "." + node.id);
   const std::set<std::string> found(known.begin(), known.end());
-  for (const std::string& node : scene.output.nodes)
-    if (!found.contains(node))
-      diagnostics.error(scene.places.at("output.nodes"),
-                        fmt::format("there is no node '{}'{}", node, did_you_mean(node, known)));
+  const auto check = [&](const std::vector<std::string>& nodes, const char* key) {
+    for (const std::string& node : nodes)
+      if (!found.contains(node))
+        diagnostics.error(scene.places.at(key), fmt::format("there is no node '{}'{}", node, did_you_mean(node, known)));
+  };
+  check(scene.output.nodes, "output.nodes");
+  if (!scene.output.floor_spectra) return;
+  std::vector<std::string> nodes = scene.output.floor_spectra->nodes;
+  std::erase(nodes, "floors");
+  check(nodes, "output.floor_spectra");
 }
 
 }  // namespace

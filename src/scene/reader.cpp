@@ -214,12 +214,12 @@ void Reader::read(const Value& value, const Field& field, DofSet& out) {
     return;
   }
   out.dofs.fill(false);
-  std::vector<std::string> choices(dof_names.begin(), dof_names.end());
+  std::vector<std::string> choices(node_dof_names.begin(), node_dof_names.end());
   if (node && node->is_string()) choices.insert(choices.begin(), {"fixed", "pinned"});
   for (const Value& item : items(value)) {
     const std::string name = name_of(item, field, choices);
     for (std::size_t dof = 0; dof < 6; ++dof)
-      if (name == dof_names[dof]) out.dofs[dof] = true;
+      if (name == node_dof_names[dof]) out.dofs[dof] = true;
   }
 }
 

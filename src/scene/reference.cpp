@@ -89,6 +89,8 @@ constexpr std::string_view title_of(const FrameSlab*) { return "slabs of a story
 constexpr std::string_view title_of(const FrameBraces*) { return "braces"; }
 constexpr std::string_view title_of(const FrameBase*) { return "base"; }
 
+constexpr std::string_view title_of(const FloorSpectraOptions*) { return "floor spectra"; }
+
 template <class T>
 concept HasTitle = requires(const T* table) {
   title_of(table);
@@ -134,7 +136,8 @@ class Rows {
       note += "]`.";
     }
     if (is_map(type)) note += fmt::format(" As a map: `{{ {} = {} }}`.", row_keys(type)[0], row_keys(type)[1]);
-    if (!scalar_key(type).empty()) note += fmt::format("A bare value stands for `{}`.", scalar_key(type));
+    if (!scalar_key(type).empty())
+      note += fmt::format("{}A bare value stands for `{}`.", note.empty() ? "" : " ", scalar_key(type));
     return {std::string(title_of(type)), keys<T>(note)};
   }
 

@@ -122,12 +122,36 @@ void visit(Archive& ar, AnalysisOptions& a) {
 }
 
 template <class Archive>
+void visit(Archive& ar, FloorSpectraOptions& s) {
+  ar(Field{"nodes",
+           "`structure.node` where oscillators stand, or `floors`: centres of the slabs (corners of slabs without; nodes "
+           "with horizontal mass of structures without slabs)"},
+     s.nodes);
+  ar(Field{.key = "periods",
+           .text = "of the oscillators",
+           .dimension = dimension::time,
+           .range = range::positive,
+           .default_text = "60 from 0.02 to 4 s, evenly spaced in logarithm"},
+     s.periods);
+  ar(Field{"damping", "ratio of the oscillators", {}, {0, 1, false, true}}, s.damping);
+}
+inline constexpr std::string_view floor_spectra_row[]{"nodes..."};
+constexpr RowKeys row_keys(const FloorSpectraOptions*) { return floor_spectra_row; }
+constexpr std::string_view scalar_key(const FloorSpectraOptions*) { return "nodes"; }
+
+template <class Archive>
 void visit(Archive& ar, OutputOptions& o) {
   ar(Field{"frames", "rate of ParaView frames; 0: none", dimension::frequency, range::non_negative}, o.frames);
   ar(Field{"history_rate", "rate of histories; 0: every step", dimension::frequency, range::non_negative},
      o.history_rate);
-  ar(Field{"history", "what to keep: `nodes`, `contacts`, `elements`, `sections`, `energy`, `ground`"}, o.history);
+  ar(Field{"history", "what to keep: `nodes`, `contacts`, `elements`, `sections`, `fibers`, `energy`, `ground`"},
+     o.history);
   ar(Field{"nodes", "`structure.node` to keep; empty: all"}, o.nodes);
+  ar(Field{"fibers",
+           "`structure.element`, or `structure.element:2` for its second integration point, whose fibers to keep; empty: all"},
+     o.fibers);
+  ar(Field{"floor_spectra", "response spectra of the floors' absolute motion, as `floor_spectra = \"floors\"`; without: none"},
+     o.floor_spectra);
   ar(Field{"amplification", "of the displacements stored in the frames", {}, range::non_negative}, o.amplification);
   ar(Field{"checkpoint", "wall-clock time between checkpoints for `--resume`; 0: only when the run ends",
            dimension::time, range::non_negative},

@@ -70,7 +70,7 @@ constexpr RowKeys row_keys(const BarTable*) { return bar_row; }
 template <class Archive, class Table>
 void visit_dofs(Archive& ar, Table& table, std::string_view text, Dimension translation, Dimension rotation) {
   for (std::size_t i = 0; i < 6; ++i)
-    ar(Field{dof_names[i], text, i < 3 ? translation : rotation, range::non_negative}, table.of_dof[i]);
+    ar(Field{node_dof_names[i], text, i < 3 ? translation : rotation, range::non_negative}, table.of_dof[i]);
 }
 template <class Archive>
 void visit(Archive& ar, StiffnessTable& s) {
@@ -82,10 +82,10 @@ void visit(Archive& ar, DashpotTable& s) {
 }
 template <class Archive>
 void visit(Archive& ar, LawTable& s) {
-  for (std::size_t i = 0; i < 6; ++i) ar(Field{dof_names[i], "material, force against displacement"}, s.of_dof[i]);
+  for (std::size_t i = 0; i < 6; ++i) ar(Field{node_dof_names[i], "material, force against displacement"}, s.of_dof[i]);
 }
-constexpr RowKeys row_keys(const StiffnessTable*) { return dof_names; }
-constexpr RowKeys row_keys(const DashpotTable*) { return dof_names; }
+constexpr RowKeys row_keys(const StiffnessTable*) { return node_dof_names; }
+constexpr RowKeys row_keys(const DashpotTable*) { return node_dof_names; }
 
 template <class Archive>
 void visit(Archive& ar, SpringTable& s) {

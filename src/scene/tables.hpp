@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "models/description.hpp"
+#include "models/dof_names.hpp"
 #include "models/story_frame.hpp"
 #include "scene/quantity.hpp"
 #include "scene/sections/sections.hpp"
@@ -25,7 +26,6 @@ struct DofSet {
   std::array<bool, 6> dofs{};
 };
 
-inline constexpr std::array<std::string_view, 6> dof_names{"ux", "uy", "uz", "rx", "ry", "rz"};
 enum class Dof { ux, uy, uz, rx, ry, rz };
 
 // --- materials and sections

@@ -54,7 +54,7 @@ std::string ValueWriter::write(const DofSet& value) const {
   if (std::count(value.dofs.begin(), value.dofs.end(), true) == 6) return "\"fixed\"";
   std::string out = "[";
   for (std::size_t dof = 0; dof < 6; ++dof)
-    if (value.dofs[dof]) out += (out.size() > 1 ? ", " : "") + toml_text(dof_names[dof]);
+    if (value.dofs[dof]) out += (out.size() > 1 ? ", " : "") + toml_text(node_dof_names[dof]);
   return out + "]";
 }
 

@@ -42,12 +42,12 @@ int exit_code(pid_t child) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
 }
 
-int run(const ResultsFolder& folder, const std::string& name, const Words& more) {
+int run(const TemporaryFolder& folder, const std::string& name, const Words& more) {
   return exit_code(start(folder.path(), name, more));
 }
 
 Words duration(const std::string& value, Words more = {}) {
-  more.insert(more.end(), {"--set", "analysis.duration=" + value, "--set", "output.history=[\"nodes\", \"contacts\", \"elements\", \"sections\", \"energy\", \"ground\"]"});
+  more.insert(more.end(), {"--set", "analysis.duration=" + value, "--set", "output.history=[\"nodes\", \"contacts\", \"elements\", \"sections\", \"fibers\", \"energy\", \"ground\"]"});
   return more;
 }
 
@@ -57,7 +57,7 @@ nlohmann::json summary_without_timing(const std::filesystem::path& folder) {
   return summary;
 }
 
-void check_same_results(const ResultsFolder& one, const ResultsFolder& other) {
+void check_same_results(const TemporaryFolder& one, const TemporaryFolder& other) {
   check_same_contents(one / "run/results.h5", other / "run/results.h5");
   CHECK(summary_without_timing(one / "run") == summary_without_timing(other / "run"));
   const Words apart{"results.h5", "summary.json", "checkpoint.h5"};
@@ -78,7 +78,7 @@ const std::vector<Case> cases{{"two_story_elastic", "6 s"}, {"two_story", "3 s"}
 TEST_CASE("a run stopped by SIGTERM and resumed gives the files of an uninterrupted one bit by bit") {
   for (const Case& c : cases) {
     CAPTURE(c.name);
-    const ResultsFolder whole, parts;
+    const TemporaryFolder whole, parts;
     REQUIRE(run(whole, c.name, duration(c.duration)) == 0);
     CHECK(!summary_without_timing(whole / "run")["impacts"].empty());
     // a checkpoint after every step makes the run slow, so that it is stopped in its middle
@@ -100,7 +100,7 @@ TEST_CASE("a run stopped by SIGTERM and resumed gives the files of an uninterrup
 TEST_CASE("a completed run resumed to a longer duration gives the files of a long run bit by bit") {
   for (const Case& c : cases) {
     CAPTURE(c.name);
-    const ResultsFolder whole, parts;
+    const TemporaryFolder whole, parts;
     REQUIRE(run(whole, c.name, duration(c.duration)) == 0);
     CHECK(run(parts, c.name, duration("1.2345 s")) == 0);
     CHECK(run(parts, c.name, duration("2.7 s", {"--resume"})) == 0);
@@ -112,7 +112,7 @@ TEST_CASE("a completed run resumed to a longer duration gives the files of a lon
 }
 
 TEST_CASE("--resume refuses what it cannot go on from, and leaves the results as they are") {
-  const ResultsFolder folder;
+  const TemporaryFolder folder;
   const std::string name = "two_story_elastic";
   const auto refused = [&](const Words& more, int code, const std::string& reason) {
     const auto before = files_below(folder.path(), {"printed"});

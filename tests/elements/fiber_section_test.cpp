@@ -86,6 +86,31 @@ TEST_CASE("more wrapped fibers than are evaluated at a time equal as many sectio
   }
 }
 
+TEST_CASE("places and states of single fibers give back the section's forces and names") {
+  std::vector<Fiber> fibers = mixed_fibers();
+  for (std::size_t i = 0; i < fibers.size(); ++i) fibers[i].material = std::to_string(i);
+  const FiberSection section(fibers, 1e4);
+  VectorX committed(section.history_size), trial(section.history_size);
+  initialize_history(section, committed.data());
+  const std::vector<FiberPlace> places = fiber_places(section);
+  REQUIRE(places.size() == fibers.size());
+  for (const Vector3& deformation : {Vector3(1e-3, 0.03, -0.02), Vector3(-2e-3, -0.05, 0.04), Vector3(5e-4, 0.01, 0.01)}) {
+    const SectionResponse response = respond_scalar(section, deformation, committed.data(), trial.data());
+    const std::vector<FiberState> states = fiber_states(section, deformation, committed.data());
+    REQUIRE(states.size() == places.size());
+    Vector3 force = Vector3::Zero();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const FiberPlace& p = places[i];
+      force += states[i].stress * p.area * Vector3(1, -p.y, p.z);
+      CHECK(states[i].strain == doctest::Approx(deformation[0] - p.y * deformation[1] + p.z * deformation[2]).epsilon(1e-14));
+      const Fiber& fiber = fibers[std::stoul(std::string(p.material))];
+      CHECK((fiber.y == p.y && fiber.z == p.z && fiber.area == p.area));
+    }
+    CHECK((force - response.force).norm() < 1e-13 * response.force.norm());  // rounding of 53 terms
+    committed = trial;
+  }
+}
+
 TEST_CASE("a symmetric fiber rectangle has EA, EI and no coupling") {
   std::vector<Fiber> fibers;
   const int n = 40;

@@ -1,5 +1,4 @@
 #include <doctest/doctest.h>
-#include <hdf5.h>
 #include <sched.h>
 #include <signal.h>
 #include <sys/mount.h>
@@ -17,74 +16,12 @@
 #include "output/history_file.hpp"
 #include "output/member_forces.hpp"
 #include "tests/output/sample_pair.hpp"
+#include "tests/support/hdf5_reader.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-// Reads with the C API alone, as another program would.
-class Reader {
- public:
-  explicit Reader(const std::filesystem::path& path) : file_(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT)) {
-    REQUIRE(file_ >= 0);
-  }
-  ~Reader() { H5Fclose(file_); }
-  bool has(const char* name) const { return H5Lexists(file_, name, H5P_DEFAULT) > 0; }
-  std::vector<hsize_t> shape(const char* name) const {
-    const hid_t data = H5Dopen2(file_, name, H5P_DEFAULT);
-    REQUIRE_MESSAGE(data >= 0, name);
-    const hid_t space = H5Dget_space(data);
-    std::vector<hsize_t> sizes(static_cast<std::size_t>(H5Sget_simple_extent_ndims(space)));
-    H5Sget_simple_extent_dims(space, sizes.data(), nullptr);
-    H5Sclose(space);
-    H5Dclose(data);
-    return sizes;
-  }
-  std::vector<double> numbers(const char* name) const {
-    std::size_t size = 1;
-    for (const hsize_t n : shape(name)) size *= n;
-    std::vector<double> values(size);
-    const hid_t data = H5Dopen2(file_, name, H5P_DEFAULT);
-    REQUIRE(H5Dread(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
-    H5Dclose(data);
-    return values;
-  }
-  std::vector<std::string> texts(const char* name) const {
-    const hid_t data = H5Dopen2(file_, name, H5P_DEFAULT), type = H5Dget_type(data), space = H5Dget_space(data);
-    std::vector<char*> raw(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space)));
-    REQUIRE(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()) >= 0);
-    std::vector<std::string> values(raw.begin(), raw.end());
-    H5Dvlen_reclaim(type, space, H5P_DEFAULT, raw.data());
-    H5Sclose(space);
-    H5Tclose(type);
-    H5Dclose(data);
-    return values;
-  }
-  double attribute(const char* object, const char* name) const {
-    double value = -1;
-    const hid_t attribute = H5Aopen_by_name(file_, object, name, H5P_DEFAULT, H5P_DEFAULT);
-    REQUIRE(attribute >= 0);
-    H5Aread(attribute, H5T_NATIVE_DOUBLE, &value);
-    H5Aclose(attribute);
-    return value;
-  }
-  std::string units(const char* object) const {
-    const hid_t attribute = H5Aopen_by_name(file_, object, "units", H5P_DEFAULT, H5P_DEFAULT);
-    REQUIRE(attribute >= 0);
-    const hid_t type = H5Aget_type(attribute);
-    char* text = nullptr;
-    H5Aread(attribute, type, &text);
-    const std::string value = text;
-    H5free_memory(text);
-    H5Tclose(type);
-    H5Aclose(attribute);
-    return value;
-  }
-
- private:
-  hid_t file_;
-};
 
 OutputOptions keeping(std::vector<std::string> history) {
   OutputOptions options;
@@ -146,7 +83,7 @@ TEST_CASE("HDF5 reads back displacement, velocity and absolute acceleration of t
   steps.run(2500);  // more than two blocks
   history.finish();
 
-  const Reader file(folder / "results.h5");
+  const Hdf5Reader file(folder / "results.h5");
   CHECK(file.shape("/time") == std::vector<hsize_t>{2501});
   CHECK(file.numbers("/time")[2500] == 2.5);
   CHECK(file.texts("/nodes/id") == options.nodes);
@@ -185,7 +122,7 @@ TEST_CASE("the rows at a lower rate are the nearest steps, and impulses are sums
   Steps steps(model, history);
   steps.run(100);
   history.finish();
-  const Reader file(folder / "results.h5");
+  const Hdf5Reader file(folder / "results.h5");
   CHECK(file.shape("/contacts/gap") == std::vector<hsize_t>{11, 4});
   CHECK(file.numbers("/time")[3] == doctest::Approx(0.03));
   CHECK(file.texts("/contacts/pair").size() == 4);
@@ -205,7 +142,7 @@ TEST_CASE("element forces are in local axes and sections carry N, MZ, MY") {
   Steps steps(model, history);
   steps.run(3);
   history.finish();
-  const Reader file(folder / "results.h5");
+  const Hdf5Reader file(folder / "results.h5");
   CHECK(file.shape("/elements/elastic_beam/forces") == std::vector<hsize_t>{4, 32, 12});
   const auto ids = file.texts("/elements/elastic_beam/id");
   CHECK(ids[0] == model.groups[0]->id(0));
@@ -237,7 +174,7 @@ TEST_CASE("without histories the file has impacts, poundings, the energy at the 
   history.impact({0.012, 2, 0.1, 10, -0.1, 0.06});
   steps.run(10);
   history.finish();
-  const Reader file(folder / "results.h5");
+  const Hdf5Reader file(folder / "results.h5");
   CHECK(file.shape("/time") == std::vector<hsize_t>{0});
   CHECK(file.numbers("/impacts/time") == std::vector<double>{0.010, 0.012});
   CHECK(file.numbers("/impacts/pair") == std::vector<double>{2, 2});
@@ -256,7 +193,7 @@ TEST_CASE("a run given up by an exception keeps all its rows") {
     Steps steps(model, history);
     steps.run(700);
   }
-  const Reader file(folder / "results.h5");
+  const Hdf5Reader file(folder / "results.h5");
   CHECK(file.shape("/nodes/displacement") == std::vector<hsize_t>{701, 24, 6});
   CHECK(file.attribute("/", "finished") == 0);
 }
@@ -271,7 +208,7 @@ TEST_CASE("what was written stays readable when the process is killed") {
     return raise(SIGKILL);
   });
   CHECK(status == -SIGKILL);
-  const Reader file(folder / "results.h5");
+  const Hdf5Reader file(folder / "results.h5");
   const auto rows = file.shape("/time")[0];
   CHECK(rows > 1000 - 300);  // all but the last block
   CHECK(file.shape("/nodes/displacement")[0] == rows);

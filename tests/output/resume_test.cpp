@@ -80,9 +80,9 @@ Snapshot small_snapshot() {
 TEST_CASE("a run killed between two checkpoints goes on from the last one with the same bits") {
   for (const std::string name : {"two_story_elastic", "two_story"}) {
     CAPTURE(name);
-    const Scene scene = example_scene(name, {"analysis.duration=3 s", "output.history=[\"nodes\", \"contacts\", \"sections\", \"energy\"]",
+    const Scene scene = example_scene(name, {"analysis.duration=3 s", "output.history=[\"nodes\", \"contacts\", \"sections\", \"fibers\", \"energy\"]",
                                              "output.history_rate=300"});
-    const ResultsFolder whole, killed;
+    const TemporaryFolder whole, killed;
     const Outcome expected = run(scene, whole.path(), {});
     const pid_t child = fork();
     if (child == 0) {
@@ -110,7 +110,7 @@ TEST_CASE("a run killed between two checkpoints goes on from the last one with t
 }
 
 TEST_CASE("a checkpoint gives back every bit, and an earlier one stays when the new one cannot be written") {
-  const ResultsFolder folder;
+  const TemporaryFolder folder;
   write_checkpoint(folder / "checkpoint.h5", "title = \"a\"\n", small_snapshot());
   const Checkpoint read = read_checkpoint(folder / "checkpoint.h5");
   CHECK(read.scene == "title = \"a\"\n");
@@ -131,7 +131,7 @@ TEST_CASE("a snapshot that lacks an array, or has one of another size, is refuse
 }
 
 TEST_CASE("a checkpoint with any byte of its numbers changed is damaged") {
-  const ResultsFolder folder;
+  const TemporaryFolder folder;
   const std::filesystem::path path = folder / "checkpoint.h5";
   Snapshot snapshot;
   snapshot.put("state.time", 1234.5);

@@ -2,15 +2,14 @@
 // write to files.
 #pragma once
 
-#include <stdlib.h>
-
 #include <fmt/format.h>
+
 #include <cmath>
-#include <filesystem>
 
 #include "elements/catalogue.hpp"
 #include "integrators/simulation.hpp"
 #include "models/model.hpp"
+#include "tests/support/files.hpp"
 
 namespace nsframe::test {
 
@@ -106,22 +105,5 @@ inline int node_index(const Model& model, const std::string& id) {
   }
   return -1;
 }
-
-// A folder of its own, removed with its contents.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "nsframe_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace nsframe::test

@@ -39,6 +39,8 @@ Summary sample_summary() {
   peak.displacement = Vector3(0.0512, -0.001, 0.0001);
   peak.twist = 0.003;
   summary.peaks = {peak};
+  summary.floor_spectra = {{"left.21", 0, 5.0, 14.7, 0.3, 0.9, 0.5}, {"left.21", 2, 5.0, 1e-9, 0.02, 1e-10, 0.02}};
+  summary.floor_spectra_damping = 0.05;
   summary.energy.input = 1200;
   summary.energy.kinetic = 200;
   summary.energy.strain = 1000.001;
@@ -86,7 +88,7 @@ TEST_CASE("the summary file has every key of the contract and the numbers of the
   write_summary(summary, folder / "summary.json");
   const auto json = nlohmann::json::parse(content(folder / "summary.json"));
   for (const char* key :
-       {"scheme", "dt", "steps", "dofs", "frequencies", "impacts", "poundings", "peaks", "drifts", "energy", "numerical_damping",
+       {"scheme", "dt", "steps", "dofs", "frequencies", "impacts", "poundings", "peaks", "drifts", "floor_spectra", "energy", "numerical_damping",
         "max_penetration", "newton_iterations", "timing", "warnings", "completed", "stop_reason", "title"}) {
     CHECK_MESSAGE(json.contains(key), key);
   }
@@ -98,6 +100,14 @@ TEST_CASE("the summary file has every key of the contract and the numbers of the
   CHECK(json["energy"]["balance_error"].get<double>() == doctest::Approx(0.001));
   CHECK(json["numerical_damping"][1]["added"].get<double>() == doctest::Approx(0.021));
   CHECK(json["peaks"][0]["displacement"][0] == 0.0512);
+  CHECK(json["floor_spectra"].size() == 2);
+  CHECK(json["floor_spectra"][0]["node"] == "left.21");
+  CHECK(json["floor_spectra"][0]["direction"] == "x");
+  CHECK(json["floor_spectra"][0]["psa"] == 14.7);
+  CHECK(json["floor_spectra"][0]["psa_period"] == 0.3);
+  CHECK(json["floor_spectra"][0]["psv"] == 0.9);
+  CHECK(json["floor_spectra"][0]["psv_period"] == 0.5);
+  CHECK(json["floor_spectra"][0]["damping"] == 0.05);
   CHECK(json["timing"].contains("step_loop"));
   CHECK_FALSE(std::filesystem::exists(folder / "summary.json.partial"));
 }

@@ -162,7 +162,7 @@ TEST_CASE("a rolled shape has the catalogue's fibers and its torsion constant") 
 }
 
 TEST_CASE("the scene of the README's sketch is read as it stands") {
-  const test::TemporaryDirectory directory;
+  const test::TemporaryFolder directory;
   directory.write("el_centro_1940_ns.at2", "NPTS= 2, DT= .02 SEC\n 0 1\n");
   Diagnostics diagnostics;
   const Scene s = parse_scene(R"(

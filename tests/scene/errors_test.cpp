@@ -98,6 +98,13 @@ TEST_CASE("an unknown choice is an error with the nearest known one") {
   CHECK(error("[gravity]\ndirection = [0, 0, 0]") == "s.toml:2:13: error: direction has no length");
   CHECK(error("[output]\nhistory = [\"node\"]") ==
         "s.toml:2:11: error: there is no history 'node'; did you mean 'nodes'?");
+  CHECK(error("[output]\nhistory = [\"nodes\"]\nfibers = [\"a.1\"]") ==
+        "s.toml:3:10: error: to keep fibers, history needs \"fibers\"");
+  CHECK(error("[output]\nfloor_spectra = { nodes = [] }") ==
+        "s.toml:2:27: error: floor spectra need nodes; \"floors\" stands for all floors");
+  CHECK(error("[output]\nfloor_spectra = { damping = 1 }") == "s.toml:2:29: error: damping = 1, must lie in [0, 1)");
+  CHECK(error("[output]\nfloor_spectra = { periods = [0.1, 0] }") == "s.toml:2:35: error: periods = 0, must be positive");
+  CHECK(error("[output]\nfloor_spectra = [\"floors\", \"a.1\"]").starts_with("s.toml:2:17: error: there is no node 'a.1'"));
 }
 
 TEST_CASE("a missing key is an error at its table") {

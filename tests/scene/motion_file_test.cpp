@@ -22,7 +22,7 @@ struct Reading {
 
 Reading read(const std::string& name, std::string_view text, std::optional<double> dt = {},
              std::optional<MotionUnit> unit = {}) {
-  const test::TemporaryDirectory directory;
+  const test::TemporaryFolder directory;
   directory.write(name, text);
   MotionTable motion;
   motion.file = {name, {"s.toml", 7, 8}};

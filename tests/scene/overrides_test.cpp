@@ -45,7 +45,7 @@ TEST_CASE("an override of the contact reaches all contacts") {
 }
 
 TEST_CASE("overrides of the motion reach all motions, and may make one") {
-  const test::TemporaryDirectory directory;
+  const test::TemporaryFolder directory;
   directory.write("a.txt", "0\n0.5\n-1\n");
   const std::vector<std::string> overrides{"motion.file=a.txt", "motion.pga=0.25 g", "motion.dt=0.1",
                                            "motion.unit=m/s2", "motion.direction=y"};
@@ -61,7 +61,7 @@ TEST_CASE("overrides of the motion reach all motions, and may make one") {
 }
 
 TEST_CASE("a record named by an override is found from the scene or from the current directory") {
-  const test::TemporaryDirectory here, there;
+  const test::TemporaryFolder here, there;
   here.write("here.txt", "1\n");
   there.write("there.txt", "2\n");
   const auto before = std::filesystem::current_path();

@@ -272,6 +272,9 @@ contact_solver = "gauss-seidel"
 threads = 2
 [output]
 nodes = ["a.top", "b.101"]
+history = ["nodes", "fibers"]
+fibers = ["a.3", "a.3:7"]
+floor_spectra = { nodes = ["floors", "a.top"], periods = [0.1, "200 ms"], damping = "2 %" }
 )";
 
 }  // namespace
@@ -312,7 +315,7 @@ TEST_CASE("a scene expanded to explicit nodes and elements describes the same mo
 
 TEST_CASE("a scene written for another directory still finds its records") {
   const Scene first = example("two_story");
-  const test::TemporaryDirectory directory;
+  const test::TemporaryFolder directory;
   const Scene second = reread(write_scene(first, directory.path()), directory.path());
   REQUIRE(second.model.motions.size() == 1);
   CHECK(second.model.motions[0].acceleration == first.model.motions[0].acceleration);

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nsframe::test {
@@ -30,18 +31,23 @@ inline std::map<std::string, std::string> files_below(const std::filesystem::pat
   return files;
 }
 
-class ResultsFolder {
+// A folder of its own, removed with its contents.
+class TemporaryFolder {
  public:
-  ResultsFolder() {
+  TemporaryFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "nsframe-XXXXXX").string();
     path_ = mkdtemp(name.data());
   }
-  ~ResultsFolder() {
+  ~TemporaryFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);
   }
-  ResultsFolder(const ResultsFolder&) = delete;
-  ResultsFolder& operator=(const ResultsFolder&) = delete;
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::filesystem::path write(const std::string& name, std::string_view text) const {
+    std::ofstream(path_ / name, std::ios::binary) << text;
+    return path_ / name;
+  }
   std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   const std::filesystem::path& path() const { return path_; }
 
