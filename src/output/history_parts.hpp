@@ -38,7 +38,8 @@ class HistoryPart {
   std::vector<Hdf5Series<double>> series_;
 };
 
-std::unique_ptr<HistoryPart> node_history(const Model& model, const std::vector<std::string>& nodes);
+// `at_rest`: displacements only.
+std::unique_ptr<HistoryPart> node_history(const Model& model, const std::vector<std::string>& nodes, bool at_rest = false);
 std::unique_ptr<HistoryPart> member_history(const Model& model);
 std::unique_ptr<HistoryPart> section_history(const Model& model, const State& state);
 std::unique_ptr<HistoryPart> contact_history(const Model& model);

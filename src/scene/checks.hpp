@@ -22,6 +22,7 @@ void check(TableReader& table, const DampingTable& damping);
 void check(TableReader& table, const StoryFrameTable& frame);
 void check(TableReader& table, const ContactTable& contact);
 void check(TableReader& table, const MotionTable& motion);
+void check(TableReader& table, const StageTable& stage);
 void check(TableReader& table, const OutputOptions& output);
 
 }  // namespace nsframe
