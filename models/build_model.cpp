@@ -57,6 +57,8 @@ class ModelBuilder {
     diagnostics_.throw_if_any();
     assemble_constants();
     add_motions();
+    build_stages(description_, model_, diagnostics_);
+    diagnostics_.throw_if_any();
     return std::move(model_);
   }
 

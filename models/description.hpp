@@ -12,6 +12,7 @@
 #include "base/types.hpp"
 #include "elements/sections.hpp"
 #include "materials/uniaxial.hpp"
+#include "models/static_stage.hpp"
 
 namespace nsframe {
 
@@ -96,6 +97,8 @@ struct SlabDescription {
 };
 
 enum class DampingKind { none, modal, rayleigh };
+// Which tangent Rayleigh damping takes: that of the first rest, of the last step, or of the present iteration.
+enum class DampingStiffness { initial, committed, current };
 
 struct DampingDescription {
   Location at;
@@ -106,6 +109,7 @@ struct DampingDescription {
   // rayleigh: C = mass_factor M + stiffness_factor K, from two frequencies and ratios when `frequencies` is set
   double mass_factor = 0;                            // [1/s]
   double stiffness_factor = 0;                       // [s]
+  DampingStiffness stiffness = DampingStiffness::initial;
   std::optional<std::array<double, 2>> frequencies;  // [Hz]
   std::array<double, 2> frequency_ratios{};          // [-]
 };
@@ -172,6 +176,7 @@ struct ModelDescription {
   std::vector<ContactDescription> contacts;
   std::vector<MotionDescription> motions;
   GravityDescription gravity;
+  std::vector<StageDescription> stages;  // static, in their order, after gravity and before the motions
 };
 
 }  // namespace nsframe

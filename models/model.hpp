@@ -57,6 +57,7 @@ struct Model {
   std::vector<GroundMotion> motions;
   std::vector<VectorX> motion_load;   // free DOFs, force of a unit acceleration: -T' M T iota [kg], one a motion
   Contacts contacts;
+  std::vector<StaticStage> stages;
   VectorX initial_displacement, initial_velocity;  // free DOFs
 
   int history_size() const { return history_begin.back(); }

@@ -78,6 +78,52 @@ class Observer {
   virtual void resume(const Model& model, const State& state, const Snapshot& snapshot) { (void)snapshot; start(model, state); }
 };
 
+// How one solution algorithm did in one step.
+struct Attempt {
+  std::string algorithm;
+  int iterations = 0;
+  bool converged = false;
+  double error = 0;            // of the residual over its tolerance, at the end
+  std::string reason;          // when it stopped before its iterations were used up
+};
+
+// A step in which the first algorithm failed, and what was tried.
+struct LadderRecord {
+  std::string stage;           // static stage; empty: the time history
+  int step = 0;                // of the stage, or of the user's dt
+  double at = 0;               // load factor or time at its start
+  std::vector<Attempt> attempts;
+};
+
+// One point of a static stage.
+struct StagePoint {
+  double load_factor = 0;
+  double displacement = 0;     // of the control DOF [m, rad]; 0 when the stage names none
+  int iterations = 0;          // of the algorithm that found it
+  double residual = 0;         // relative
+};
+
+struct StageResult {
+  std::string name, control, at;       // at: the control DOF, "left.9 ux"; may be empty
+  std::vector<StagePoint> points;      // the first is the start
+  std::vector<LadderRecord> ladder;
+  long iterations = 0, halved = 0, factorizations = 0;  // iterations of all attempts
+  double least_gap = 1e300;            // of the contact pairs at any point [m]; they don't act in static stages
+  bool completed = false, interrupted = false;
+  std::string stop_reason;
+};
+
+// Watches static stages. The points of a stage come between its start and its end.
+class StageObserver {
+ public:
+  virtual ~StageObserver() = default;
+  virtual void start(const Model& model, const StaticStage& stage, const State& state) { (void)model; (void)stage; (void)state; }
+  // Every point found; the first is the start of the stage.
+  virtual void point(const StagePoint& point, const State& state) = 0;
+  // Also when the stage stops early.
+  virtual void finish(const StageResult& result) { (void)result; }
+};
+
 // Effective damping and frequency of one mode under a scheme with a given step.
 struct ModeNumerics {
   std::string structure;
@@ -127,6 +173,8 @@ struct Summary {
   std::vector<std::vector<double>> frequencies;   // Hz, a list a structure
   std::vector<ModeNumerics> modes;
   std::vector<std::string> pairs;                 // names, in the order of Impact::pair
+  std::vector<StageResult> stages;
+  std::vector<LadderRecord> ladder;               // steps in which the first algorithm failed, the first 200
   std::vector<Impact> impacts;
   std::vector<Pounding> poundings;
   std::vector<Peak> peaks;
@@ -137,7 +185,7 @@ struct Summary {
   double worst_balance_error = 0;                 // over the run, relative to the largest energy [-]
   double max_penetration = 0;                     // [m]
   double max_complementarity_error = 0;
-  long newton_iterations = 0, halved_steps = 0, factorizations = 0;
+  long newton_iterations = 0, halved_steps = 0, laddered_steps = 0, factorizations = 0;
   Timing timing;
   std::vector<std::string> warnings;              // plain sentences
   bool completed = true;

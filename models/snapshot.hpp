@@ -38,6 +38,8 @@ void save(const State& state, Snapshot& snapshot);
 void restore(State& state, const Snapshot& snapshot);
 
 void save(const std::string& name, const std::vector<Impact>& impacts, Snapshot& snapshot);
+void save(const std::string& name, const std::vector<LadderRecord>& records, Snapshot& snapshot);
+std::vector<LadderRecord> restore_ladder(const std::string& name, const Snapshot& snapshot);
 std::vector<Impact> restore_impacts(const std::string& name, const Snapshot& snapshot);
 
 }  // namespace nsframe

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -55,11 +56,18 @@ void print_contacts(const Contacts& contacts) {
 
 void print_solution(const LoadedScene& loaded, Simulation& simulation) {
   const AnalysisOptions& analysis = loaded.scene.analysis;
+  for (const StaticStage& stage : simulation.stages()) {
+    fmt::print("static stage '{}': by {}{}, {}, first {:g}, last {:g}\n", stage.name, stage.options.control,
+               stage.control_name.empty() ? "" : " at " + stage.control_name, counted(stage.options.targets.size(), "target"),
+               stage.options.targets.front(), stage.options.targets.back());
+  }
+  if (!simulation.stages().empty() && !(simulation.duration() > 0)) return;
   fmt::print("scheme {}: theta = {:g}, gamma = {:g}, dt = {:g} ms, {} steps to {:g} s\n", analysis.scheme, analysis.theta,
              analysis.gamma, 1e3 * analysis.dt, std::lround(simulation.duration() / analysis.dt), simulation.duration());
+  const std::string algorithms = fmt::format("{}", fmt::join(analysis.algorithm, ", "));
   fmt::print("solution: {}; contact by {}\n",
-             simulation.system().linear() ? "linear, the iteration matrix is factored once"
-                                          : "Newton-Raphson, the tangent is factored anew where it has changed too much",
+             simulation.system().linear() ? std::string("linear, the iteration matrix is factored once")
+                                          : "Newton-Raphson, the tangent is factored anew where it has changed too much; algorithms: " + algorithms,
              analysis.contact_solver == ContactSolverKind::active_set ? "an exact active-set method" : "projected Gauss-Seidel");
 }
 

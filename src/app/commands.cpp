@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "base/errors.hpp"
+#include "integrators/algorithms.hpp"
 #include "models/fiber_selection.hpp"
 
 namespace nsframe::app {
@@ -20,6 +21,16 @@ LoadedScene load(const SceneArguments& arguments) {
     const auto place = loaded.scene.places.find("analysis.scheme");
     diagnostics.error(place == loaded.scene.places.end() ? Location{} : place->second,
                       fmt::format("scheme '{}' is not known{}", scheme, did_you_mean(scheme, schemes)));
+  }
+  const std::vector<std::string> algorithms = algorithm_choices();
+  for (const std::string& algorithm : loaded.scene.analysis.algorithm) {
+    const auto place = loaded.scene.places.find("analysis.algorithm");
+    const Location at = place == loaded.scene.places.end() ? Location{} : place->second;
+    if (std::find(algorithms.begin(), algorithms.end(), algorithm) == algorithms.end()) {
+      diagnostics.error(at, fmt::format("algorithm '{}' is not known{}", algorithm, did_you_mean(algorithm, algorithms)));
+    } else if (algorithm == "auto" && loaded.scene.analysis.algorithm.size() > 1) {
+      diagnostics.error(at, "algorithm \"auto\" stands alone");
+    }
   }
   if (arguments.threads > 0) loaded.scene.analysis.threads = arguments.threads;
   loaded.model = build_model(loaded.scene.model, diagnostics);

@@ -33,7 +33,8 @@ std::string array_market(const MatrixX& matrix, const std::string& comment) {
 // C of the whole model: dashpots, Rayleigh, and the modal part U U' written out.
 SparseMatrix damping_matrix(const System& system) {
   std::vector<Eigen::Triplet<double>> entries;
-  const SparseMatrix& viscous = system.damping.viscous;
+  SparseMatrix viscous = system.damping.viscous;
+  if (system.damping.follows_tangent()) viscous += system.damping.tangent;
   for (int k = 0; k < viscous.outerSize(); ++k) {
     for (SparseMatrix::InnerIterator entry(viscous, k); entry; ++entry) {
       entries.emplace_back(static_cast<int>(entry.row()), static_cast<int>(entry.col()), entry.value());

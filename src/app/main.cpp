@@ -83,6 +83,11 @@ int program(int count, char** values) {
   modes_command->add_option("-o,--output", arguments.output, "folder for the mode shapes (VTK)");
   modes_command->add_flag("--json", arguments.json, "print JSON");
   modes_command->callback([&] { command = [&] { return modes(arguments); }; });
+  CLI::App* buckling_command = add_command(
+      program, "buckling", "critical factors of the last static stage's loads, or of gravity; shapes with -o", arguments);
+  buckling_command->add_option("-o,--output", arguments.output, "folder for the buckling shapes (VTK)");
+  buckling_command->add_flag("--json", arguments.json, "print JSON");
+  buckling_command->callback([&] { command = [&] { return buckling(arguments); }; });
   CLI::App* export_command = add_command(program, "export", "matrices (Matrix Market) and the expanded scene", arguments);
   export_command->add_option("-o,--output", arguments.output, "folder (default: results/<name of the scene>)");
   export_command->add_flag("-q,--quiet", arguments.quiet, "print errors only");

@@ -2,10 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 #include "app/commands.hpp"
-#ifdef NSFRAME_HAS_VTK
-#include "output/vtk_frames.hpp"
-#endif
+#include "app/shape_frames.hpp"
 
 namespace nsframe::app {
 
@@ -47,36 +47,24 @@ void print_json(const Model& model, const std::vector<StructureModes>& all) {
   fmt::print("{}\n", list.dump(2));
 }
 
-#ifdef NSFRAME_HAS_VTK
-// One frame a mode, at the "time" of its number: mode 1 of every structure in frame 1, and so on; the largest
-// translation of every shape is a metre.
-void write_shapes(const Model& model, Simulation& simulation, const std::filesystem::path& folder) {
-  OutputOptions options;
-  options.frames = 1;
-  VtkFrames frames(folder, options);
-  State state = simulation.state();
-  state.displacement.setZero();
-  frames.start(model, state);
-  int most = 0;
-  for (const StructureModes& modes : simulation.modes()) most = std::max(most, modes.modes.size());
-  for (int mode = 0; mode < most; ++mode) {
-    State shape = state;
-    shape.time = mode + 1;
-    for (std::size_t s = 0; s < simulation.modes().size(); ++s) {
-      const Modes& modes = simulation.modes()[s].modes;
-      const Structure& structure = model.structures[s];
-      if (mode >= modes.size()) continue;
-      shape.displacement.segment(structure.first_dof, structure.last_dof - structure.first_dof) = modes.shape.col(mode);
-      const VectorX full = model.dofs.expand(shape.displacement);
+// Mode 1 of every structure together, and so on; the largest translation of every shape is a metre.
+std::vector<VectorX> shapes_of(const Model& model, const std::vector<StructureModes>& all) {
+  std::vector<VectorX> shapes;
+  for (std::size_t s = 0; s < all.size(); ++s) {
+    const Structure& structure = model.structures[s];
+    for (int mode = 0; mode < all[s].modes.size(); ++mode) {
+      if (static_cast<std::size_t>(mode) == shapes.size()) shapes.push_back(VectorX::Zero(model.dofs.size()));
+      auto part = shapes[static_cast<std::size_t>(mode)].segment(structure.first_dof, structure.last_dof - structure.first_dof);
+      VectorX alone = VectorX::Zero(model.dofs.size());
+      alone.segment(structure.first_dof, part.size()) = all[s].modes.shape.col(mode);
+      const VectorX full = model.dofs.expand(alone);
       double largest = 0;
       for (const int node : structure.nodes) largest = std::max(largest, full.segment<3>(6 * node).norm());
-      if (largest > 0) shape.displacement.segment(structure.first_dof, structure.last_dof - structure.first_dof) /= largest;
+      part = all[s].modes.shape.col(mode) / (largest > 0 ? largest : 1);
     }
-    frames.step(state, shape, {}, {});
   }
-  frames.finish();
+  return shapes;
 }
-#endif
 
 }  // namespace
 
@@ -89,14 +77,10 @@ int modes(const SceneArguments& arguments) {
     print_table(loaded.model, simulation.modes());
   }
   if (arguments.output.empty()) return done;
-#ifdef NSFRAME_HAS_VTK
   make_folder(arguments.output);
-  write_shapes(loaded.model, simulation, arguments.output);
+  write_shape_frames(loaded.model, simulation.state(), shapes_of(loaded.model, simulation.modes()), arguments.output);
   if (!arguments.json) fmt::print("mode shapes: {} (one frame a mode)\n", (arguments.output / "frames.pvd").string());
   return done;
-#else
-  throw InputError("error: -o: this nsframe was built without VTK and cannot write mode shapes");
-#endif
 }
 
 }  // namespace nsframe::app

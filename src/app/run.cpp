@@ -15,6 +15,7 @@
 #include "output/poundings.hpp"
 #include "output/summary.hpp"
 #ifdef NSFRAME_HAS_VTK
+#include "output/stage_frames.hpp"
 #include "output/vtk_frames.hpp"
 #endif
 
@@ -52,13 +53,20 @@ void add_participation(const std::vector<StructureModes>& structures, Summary& s
   }
 }
 
-void print_files(const std::filesystem::path& folder, bool frames) {
+// Whether there was a time history, not static stages alone.
+bool has_history(const Summary& summary) {
+  return summary.stages.empty() || (summary.duration > 0 && summary.stages.back().completed);
+}
+
+void print_files(const std::filesystem::path& folder, bool frames, const Summary& summary) {
   fmt::print("\nresults in {}:\n", folder.string());
-  if (frames) fmt::print("  frames.pvd         open in ParaView, or run: paraview --script={}\n", (folder / "open_in_paraview.py").string());
+  const bool history = has_history(summary);
+  if (frames && !summary.stages.empty()) fmt::print("  static/<stage>/    frames.pvd of every static stage, a point a frame\n");
+  if (frames && history) fmt::print("  frames.pvd         open in ParaView, or run: paraview --script={}\n", (folder / "open_in_paraview.py").string());
   fmt::print("  summary.json       everything above, for programs\n");
   fmt::print("  results.h5         histories, impacts and the complete scene (HDF5)\n");
   fmt::print("  scene.toml         the scene with every default that was used\n");
-  fmt::print("  checkpoint.h5      to go on from here with --resume, for instance to a longer analysis.duration\n");
+  if (history) fmt::print("  checkpoint.h5      to go on from here with --resume, for instance to a longer analysis.duration\n");
 }
 
 // An earlier run's would not belong to the new files.
@@ -78,6 +86,10 @@ RunControl keeping_checkpoints(const std::filesystem::path& folder, const std::s
 
 int exit_code(const Summary& summary, const std::filesystem::path& folder) {
   if (summary.completed) return done;
+  if (!has_history(summary)) {
+    fmt::print(stderr, "error: stopped: {}\nwhat was computed until then is kept in {}\n", summary.stop_reason, folder.string());
+    return summary.interrupted ? interrupted - SIGINT + SignalWatch::received() : not_converged;
+  }
   if (summary.interrupted) {
     fmt::print(stderr, "interrupted at t = {:.6g} s; the same command with --resume goes on from there (results in {})\n",
                summary.end_time, folder.string());
@@ -115,6 +127,7 @@ int run(const SceneArguments& arguments) {
   const bool wants_frames = loaded.scene.output.frames > 0;
 #ifdef NSFRAME_HAS_VTK
   VtkFrames frames(folder, loaded.scene.output);
+  StageFrames stage_frames(folder / "static", loaded.scene.output);
   if (wants_frames) observers.push_back(&frames);
 #else
   if (wants_frames) throw InputError("error: output.frames: this nsframe was built without VTK; set frames = 0");
@@ -122,7 +135,15 @@ int run(const SceneArguments& arguments) {
   const SignalWatch signals;
   RunControl control = keeping_checkpoints(folder, complete, loaded.scene.output.checkpoint);
   if (arguments.resume) control.resume = &checkpoint.snapshot;
-  Summary summary = simulation.run(observers, control);
+  std::vector<StageObserver*> stage_observers;
+  if (!arguments.resume) {  // what an earlier run wrote of the stages stands
+    stage_observers.push_back(&history.stages());
+#ifdef NSFRAME_HAS_VTK
+    if (wants_frames) stage_observers.push_back(&stage_frames);
+#endif
+  }
+  Summary summary = simulation.run(observers, control, stage_observers);
+  if (!has_history(summary)) history.close();
   summary.title = loaded.scene.title;
   summary.timing.setup = setup;
   summary.poundings = merge_impacts(summary.impacts);
@@ -139,7 +160,7 @@ int run(const SceneArguments& arguments) {
   write_summary(summary, folder / "summary.json");
   if (!arguments.quiet) {
     fmt::print("{}", summary_text(summary));
-    print_files(folder, wants_frames);
+    print_files(folder, wants_frames, summary);
   }
   return exit_code(summary, folder);
 }

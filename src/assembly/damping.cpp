@@ -100,7 +100,16 @@ void assemble_damping(System& system, const SparseMatrix& stiffness, std::vector
       }
       const auto [mass_factor, stiffness_factor] = rayleigh_factors(damping);
       add(extract_block(system.model.mass, range), mass_factor, range.first);
-      add(extract_block(stiffness, range), stiffness_factor, range.first);
+      // the tangent of a linear model never changes
+      if (damping.stiffness == DampingStiffness::initial || system.linear()) {
+        add(extract_block(stiffness, range), stiffness_factor, range.first);
+      } else {
+        if (!system.damping.follows_tangent()) {
+          system.damping.committed_factor = system.damping.current_factor = VectorX::Zero(system.model.dofs.size());
+        }
+        (damping.stiffness == DampingStiffness::committed ? system.damping.committed_factor : system.damping.current_factor)
+            .segment(range.first, range.size()).setConstant(stiffness_factor);
+      }
     } else if (damping.kind == DampingKind::modal) {
       const VectorX ratios = asked_ratios(structures[i], modes[i], diagnostics);
       const MatrixX factor = modal_damping_factor(modes[i].modes, extract_block(system.model.mass, range), ratios);
@@ -114,9 +123,13 @@ void assemble_damping(System& system, const SparseMatrix& stiffness, std::vector
   diagnostics.throw_if_any();
   system.damping.viscous.resize(system.model.dofs.size(), system.model.dofs.size());
   system.damping.viscous.setFromTriplets(viscous.begin(), viscous.end());
+  if (system.damping.follows_tangent()) {
+    system.damping.form_tangent(Eigen::Map<const VectorX>(stiffness.valuePtr(), stiffness.nonZeros()), stiffness);
+  }
   for (std::size_t i = 0; i < structures.size(); ++i) {
     const BlockRange range = system.assembler.blocks()[i];
-    const SparseMatrix C = extract_block(system.damping.viscous, range);
+    SparseMatrix C = extract_block(system.damping.viscous, range);
+    if (system.damping.follows_tangent()) C += extract_block(system.damping.tangent, range);
     for (int n = 0; n < modes[i].modes.size(); ++n) {
       const VectorX shape = modes[i].modes.shape.col(n);
       const double c = shape.dot(C * shape) + (system.damping.modal[i].transpose() * shape).squaredNorm();

@@ -2,9 +2,20 @@
 
 namespace nsframe {
 
+void Damping::form_tangent(const VectorX& committed, const SparseMatrix& current) {
+  if (tangent.nonZeros() != current.nonZeros()) tangent = current;
+  for (int j = 0; j < current.outerSize(); ++j) {
+    for (int k = current.outerIndexPtr()[j]; k < current.outerIndexPtr()[j + 1]; ++k) {
+      // both ends of an entry belong to one structure, so to one factor
+      tangent.valuePtr()[k] = committed_factor[j] * committed[k] + current_factor[j] * current.valuePtr()[k];
+    }
+  }
+}
+
 void Damping::add_force(const std::vector<BlockRange>& blocks, double factor, const VectorX& velocity,
                         VectorX& force) const {
   if (viscous.nonZeros() > 0) force.noalias() += factor * (viscous * velocity);
+  if (tangent.nonZeros() > 0) force.noalias() += factor * (tangent * velocity);
   for (std::size_t i = 0; i < modal.size(); ++i) {
     if (modal[i].cols() == 0) continue;
     const VectorX rates = modal[i].transpose() * velocity.segment(blocks[i].first, blocks[i].size());

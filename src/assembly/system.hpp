@@ -5,10 +5,17 @@
 
 namespace nsframe {
 
-// C = viscous + U U' block by block: dashpots and Rayleigh damping sparse, modal damping as a low-rank factor.
+// C = viscous + U U' block by block: dashpots and Rayleigh damping sparse, modal damping as a low-rank factor; and what
+// follows the tangent, C += a1 K with K of the last step's end or of the present iteration (theory.md, 95).
 struct Damping {
   SparseMatrix viscous;             // [N s/m]
+  SparseMatrix tangent;             // the part that follows the tangent, as formed last; pattern of the stiffness, or empty
+  VectorX committed_factor, current_factor;  // a1 of every free DOF [s]; empty when no structure asks
   std::vector<MatrixX> modal;       // one factor U a structure (its DOFs x modes); may have no columns
+
+  bool follows_tangent() const { return committed_factor.size() > 0; }
+  // Forms `tangent` from the entries of both stiffnesses.
+  void form_tangent(const VectorX& committed, const SparseMatrix& current);
 
   // force += factor * C velocity
   void add_force(const std::vector<BlockRange>& blocks, double factor, const VectorX& velocity, VectorX& force) const;
@@ -22,6 +29,7 @@ class System {
   Assembler assembler;
   Damping damping;
   VectorX static_load;              // acts throughout [N]
+  SparseMatrix initial_stiffness;   // tangent at the first rest, for algorithms that keep it; may be empty
 
   const Contacts& contacts() const { return model.contacts; }
   const SparseMatrix& mass() const { return model.mass; }

@@ -24,6 +24,7 @@ void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness
   ++factorizations_;
   a_ = -1;
   stiffness_.assign(stiffness.valuePtr(), stiffness.valuePtr() + stiffness.nonZeros());
+  damping_.assign(system.damping.tangent.valuePtr(), system.damping.tangent.valuePtr() + system.damping.tangent.nonZeros());
   responses_.assign(static_cast<std::size_t>(system.contacts().size()), VectorX());
   std::size_t structure = 0;
   std::vector<MatrixX> inverses;
@@ -33,6 +34,7 @@ void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness
     SparseMatrix J = a * a * extract_block(stiffness, block.range);
     J += extract_block(system.mass(), block.range);
     if (system.damping.viscous.nonZeros() > 0) J += a * extract_block(system.damping.viscous, block.range);
+    if (system.damping.tangent.nonZeros() > 0) J += a * extract_block(system.damping.tangent, block.range);
     try {
       if (block.dense) {
         MatrixX full(J);
@@ -61,14 +63,19 @@ void IterationMatrix::save(Snapshot& snapshot) const {
   snapshot.put("iteration_matrix.a", a_);
   snapshot.put("iteration_matrix.factorizations", static_cast<double>(factorizations_));
   snapshot.put("iteration_matrix.stiffness", stiffness_);
+  snapshot.put("iteration_matrix.damping", damping_);
 }
 
-void IterationMatrix::restore(const System& system, const Snapshot& snapshot) {
+void IterationMatrix::restore(System& system, const Snapshot& snapshot) {
   const double a = snapshot.number("iteration_matrix.a");
   if (a > 0) {
     SparseMatrix stiffness = system.assembler.tangent();
     Eigen::Map<VectorX> values(stiffness.valuePtr(), stiffness.nonZeros());
     snapshot.read("iteration_matrix.stiffness", values);
+    if (system.damping.follows_tangent()) {
+      Eigen::Map<VectorX> damping(system.damping.tangent.valuePtr(), system.damping.tangent.nonZeros());
+      snapshot.read("iteration_matrix.damping", damping);
+    }
     factor(system, stiffness, a);
   }
   factorizations_ = static_cast<long>(snapshot.number("iteration_matrix.factorizations"));

@@ -26,7 +26,7 @@ class IterationMatrix {
 
   // The factors stay in use for many steps: a snapshot holds the stiffness that they were made from.
   void save(Snapshot& snapshot) const;
-  void restore(const System& system, const Snapshot& snapshot);
+  void restore(System& system, const Snapshot& snapshot);
 
   // x = J^-1 rhs; x and rhs may not be the same.
   void solve(const VectorX& rhs, VectorX& x) const;
@@ -56,6 +56,7 @@ class IterationMatrix {
   double a_ = -1;
   long factorizations_ = 0;
   std::vector<double> stiffness_;         // entries of the factored one, in the order of Assembler::tangent()
+  std::vector<double> damping_;           // entries of Damping::tangent in the factored one
   std::vector<Block> blocks_;
   BlockOperator inverse_;
   bool explicit_inverse_ = false;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
@@ -19,7 +20,7 @@ constexpr double least_acceleration = 1e-3;
 }  // namespace
 
 MoreauJean::MoreauJean(const AnalysisOptions& options, const System& system)
-    : options_(options), matrix_(system), least_scale_(least_acceleration * system.mass().diagonal().norm()) {}
+    : options_(options), matrix_(system), ladder_(options.algorithm), least_scale_(least_acceleration * system.mass().diagonal().norm()) {}
 
 void MoreauJean::find_active_pairs(const System& system, const State& committed, double h, StepResult& result) {
   const Contacts& contacts = system.contacts();
@@ -42,14 +43,18 @@ void MoreauJean::evaluate(System& system, const State& committed, State& trial, 
   system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force);
   momentum_change_.noalias() = system.mass() * (trial.velocity - committed.velocity);
   free_residual_ = momentum_change_ + h * ((1 - theta) * committed.internal_force + theta * trial.internal_force) - load_;
+  if (system.damping.follows_tangent()) system.damping.form_tangent(committed.damping_stiffness, system.assembler.tangent());
   system.damping.add_force(system.assembler.blocks(), h, mid_velocity_, free_residual_);
 }
 
-void MoreauJean::update_velocity(const System& system, State& trial, StepResult& result) {
-  matrix_.solve(free_residual_, correction_);
-  trial.velocity -= correction_;
+void MoreauJean::update_velocity(const System& system, const VectorX& change, State& trial, StepResult& result) {
+  trial.velocity += change;
   if (active_.empty()) return;
   const Contacts& contacts = system.contacts();
+  for (std::size_t a = 0; a < active_.size(); ++a) {  // R knows of the impulses so far: they are found anew
+    const double p = impulse_[static_cast<Eigen::Index>(a)];
+    if (p != 0) trial.velocity -= p * matrix_.response(contacts, active_[a]);
+  }
   const auto count = static_cast<Eigen::Index>(active_.size());
   ContactProblem problem{MatrixX(count, count), VectorX(count)};
   for (Eigen::Index a = 0; a < count; ++a) {
@@ -82,25 +87,69 @@ void MoreauJean::update_velocity(const System& system, State& trial, StepResult&
   if (contact_change_.size() > 0) trial.velocity += contact_change_;
 }
 
-double MoreauJean::residual_norm(const System& system) const {
-  if (active_.empty()) return free_residual_.norm();
-  VectorX residual = free_residual_;
+void MoreauJean::add_impulses(const System& system) {
+  residual_ = free_residual_;
   for (std::size_t a = 0; a < active_.size(); ++a) {
-    residual -= impulse_[static_cast<Eigen::Index>(a)] * system.contacts().jacobian.row(active_[a]).transpose();
+    residual_ -= impulse_[static_cast<Eigen::Index>(a)] * system.contacts().jacobian.row(active_[a]).transpose();
   }
-  return residual.norm();
 }
 
 double MoreauJean::force_scale(const State& trial, double h) const {
   return h * least_scale_ + momentum_change_.norm() + h * trial.internal_force.norm() + load_.norm();
 }
 
-void MoreauJean::fail(const System& system, const State& committed, double residual) const {
+void MoreauJean::fail(const System& system, const State& committed, const StepResult& result) const {
   const bool contact = !active_.empty() && impulse_.size() > 0 && impulse_.maxCoeff() > 0;
-  throw ConvergenceError(fmt::format("Newton did not converge at t = {:.6g} s (relative residual {:.1e}), largest in element '{}'{}",
-                                     committed.time, residual, system.assembler.worst_element(free_residual_),
-                                     contact ? ", while pair " + system.contacts().pairs[static_cast<std::size_t>(active_[0])].name + " is in contact" : ""));
+  throw ConvergenceError(fmt::format("the step at t = {:.6g} s did not converge (relative residual {:.1e}), largest in element '{}'{}; "
+                                     "tried: {}",
+                                     committed.time, result.residual, system.assembler.worst_element(free_residual_),
+                                     contact ? ", while pair " + system.contacts().pairs[static_cast<std::size_t>(active_[0])].name + " is in contact" : "",
+                                     tried(result.attempts)));
 }
+
+// The step as the solution algorithms see it: x is the velocity.
+class MoreauJean::Step : public NonlinearStep {
+ public:
+  Step(MoreauJean& scheme, System& system, const State& committed, State& trial, double h, StepResult& result)
+      : scheme_(scheme), system_(system), committed_(committed), trial_(trial), h_(h), result_(result) {}
+
+  void restart() override {
+    scheme_.impulse_ = VectorX::Zero(result_.active_pairs);
+    system_.assembler.start_step(committed_.history, trial_.history);
+    trial_.velocity = committed_.velocity;
+    if (!system_.linear()) trial_.velocity += h_ * committed_.acceleration;
+    evaluate();
+  }
+  const VectorX& residual() const override { return scheme_.active_.empty() ? scheme_.free_residual_ : scheme_.residual_; }
+  double error() const override { return result_.residual / scheme_.options_.newton_tolerance; }
+  void factor(Tangent which) override {
+    const bool initial = which == Tangent::initial && system_.initial_stiffness.nonZeros() == system_.assembler.tangent().nonZeros();
+    scheme_.matrix_.factor(system_, initial ? system_.initial_stiffness : system_.assembler.tangent(), scheme_.options_.theta * h_);
+  }
+  void solve(const VectorX& rhs, VectorX& x) override { scheme_.matrix_.solve(rhs, x); }
+  void move(const VectorX& change) override {
+    scheme_.update_velocity(system_, change, trial_, result_);
+    evaluate();
+  }
+  bool has_factors() const override { return scheme_.matrix_.ready(scheme_.options_.theta * h_); }
+  double slow_reduction() const override {
+    return system_.linear() ? std::numeric_limits<double>::infinity() : nsframe::slow_reduction;
+  }
+
+ private:
+  void evaluate() {
+    scheme_.evaluate(system_, committed_, trial_, h_);
+    if (!scheme_.active_.empty()) scheme_.add_impulses(system_);
+    result_.residual = residual().norm() / std::max(scheme_.force_scale(trial_, h_), 1e-300);
+  }
+
+  MoreauJean& scheme_;
+  System& system_;
+  const State& committed_;
+  State& trial_;
+  double h_;
+  StepResult& result_;
+};
 
 void MoreauJean::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result.impacts.clear();
@@ -108,30 +157,20 @@ void MoreauJean::step(System& system, const State& committed, State& trial, doub
   contact_change_.resize(0);
   find_active_pairs(system, committed, h, result);
   result.active_pairs = static_cast<int>(active_.size());
-  impulse_ = VectorX::Zero(result.active_pairs);
   system.load_impulse(committed.time, committed.time + h, load_);
-  system.assembler.start_step(committed.history, trial.history);
-  trial.velocity = committed.velocity;
-  if (!system.linear()) trial.velocity += h * committed.acceleration;
-  evaluate(system, committed, trial, h);
-  const double a = options_.theta * h;
-  if (!matrix_.ready(a)) matrix_.factor(system, system.assembler.tangent(), a);
-  double previous = std::numeric_limits<double>::infinity();
-  for (result.newton_iterations = 1;; ++result.newton_iterations) {
-    update_velocity(system, trial, result);
-    evaluate(system, committed, trial, h);
-    const double residual = residual_norm(system), scale = force_scale(trial, h);
-    result.residual = residual / scale;
-    if (residual <= options_.newton_tolerance * scale) break;
-    if (!std::isfinite(residual) || result.newton_iterations >= options_.max_newton) fail(system, committed, result.residual);
-    if (!system.linear() && residual > slow_reduction * previous) matrix_.factor(system, system.assembler.tangent(), a);
-    previous = residual;
-  }
+  Step problem(*this, system, committed, trial, h, result);
+  if (!ladder_.climb(problem, options_.max_newton, result.attempts)) fail(system, committed, result);
+  result.newton_iterations = 0;
+  for (const Attempt& attempt : result.attempts) result.newton_iterations += attempt.iterations;
   trial.time = committed.time + h;
   if (active_.empty()) {
     trial.acceleration = (trial.velocity - committed.velocity) / h;
   } else {
     trial.acceleration.setZero(trial.velocity.size());
+  }
+  if (system.damping.follows_tangent()) {
+    const SparseMatrix& K = system.assembler.tangent();
+    trial.damping_stiffness = Eigen::Map<const VectorX>(K.valuePtr(), K.nonZeros());
   }
   report(system, committed, trial, h, result);
 }

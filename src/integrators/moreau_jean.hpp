@@ -6,6 +6,7 @@
 #pragma once
 
 #include "contact/contact_problem.hpp"
+#include "integrators/algorithms.hpp"
 #include "integrators/iteration_matrix.hpp"
 #include "integrators/scheme.hpp"
 
@@ -19,26 +20,29 @@ class MoreauJean : public Scheme {
   ModeResponse mode_response(double w, double xi, double h) const override;
   long factorizations() const override { return matrix_.factorizations(); }
   void save(Snapshot& snapshot) const override { matrix_.save(snapshot); }
-  void restore(const System& system, const Snapshot& snapshot) override { matrix_.restore(system, snapshot); }
+  void restore(System& system, const Snapshot& snapshot) override { matrix_.restore(system, snapshot); }
 
  private:
+  class Step;
   void find_active_pairs(const System& system, const State& committed, double h, StepResult& result);
   // Internal force at the trial velocity; fills free_residual_ = R without the contact impulses.
   void evaluate(System& system, const State& committed, State& trial, double h);
-  // Newton update of the velocity with the contact problem on the active pairs.
-  void update_velocity(const System& system, State& trial, StepResult& result);
-  double residual_norm(const System& system) const;
+  // Changes the velocity as an algorithm commands, then solves the contact problem on the active pairs.
+  void update_velocity(const System& system, const VectorX& change, State& trial, StepResult& result);
+  // Fills residual_ = R with the contact impulses.
+  void add_impulses(const System& system);
   double force_scale(const State& trial, double h) const;
   void report(const System& system, const State& committed, State& trial, double h, StepResult& result) const;
-  [[noreturn]] void fail(const System& system, const State& committed, double residual) const;
+  [[noreturn]] void fail(const System& system, const State& committed, const StepResult& result) const;
 
   AnalysisOptions options_;
   IterationMatrix matrix_;
+  Ladder ladder_;
   double least_scale_;                // force that counts as zero [N]
   std::vector<int> active_;
   VectorX gap_, rate_;                // at the start of the step
   VectorX impulse_;                   // of the active pairs
-  VectorX load_, free_residual_, mid_velocity_, momentum_change_, correction_;
+  VectorX load_, free_residual_, residual_, mid_velocity_, momentum_change_;
   VectorX contact_change_;            // of the velocity, by the impulses; empty without
 };
 

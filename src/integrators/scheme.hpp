@@ -22,6 +22,7 @@ struct StepResult {
   double least_gap = 0;              // at the start of the step [m]
   std::vector<Impact> impacts;
   std::vector<VelocityJump> jumps;   // in the order of time
+  std::vector<Attempt> attempts;     // of the solution algorithms, also when the step failed
   // increments over the step [J]; kinetic and strain energy are those of Energy
   double strain = 0, damping = 0, contact = 0, numerical = 0, input = 0;
 };
@@ -46,7 +47,7 @@ class Scheme {
 
   // What outlives a step and is not in State: with it, a restored scheme goes on with the same bits.
   virtual void save(Snapshot& snapshot) const = 0;
-  virtual void restore(const System& system, const Snapshot& snapshot) = 0;
+  virtual void restore(System& system, const Snapshot& snapshot) = 0;
 };
 
 // The scheme of that name. Throws InputError for an unknown one.

@@ -8,7 +8,9 @@
 #include "assembly/stability.hpp"
 #include "base/errors.hpp"
 #include "base/timer.hpp"
+#include "integrators/algorithms.hpp"
 #include "integrators/static_analysis.hpp"
+#include "integrators/static_control.hpp"
 
 namespace nsframe {
 
@@ -37,11 +39,17 @@ Simulation::Simulation(const Model& model, const AnalysisOptions& options, int m
   Diagnostics diagnostics;
   check_stability(model, system_.assembler.tangent(), diagnostics);
   diagnostics.throw_if_any();
+  system_.initial_stiffness = system_.assembler.tangent();
+  check_stages_fit();
   find_initial_state();
-  stiffness_ = system_.assembler.tangent();
+  stiffness_ = system_.initial_stiffness = system_.assembler.tangent();
   modes_ = structure_modes(model, stiffness_, modes);
   assemble_damping(system_, stiffness_, modes_);
   scheme_ = make_scheme(options, system_);
+  stages_ = model.stages;
+  for (StaticStage& stage : stages_) {
+    if (!stage.mode.empty()) stage.pattern = mode_pattern(stage);
+  }
   setup_seconds_ = timer.seconds();
 }
 
@@ -71,6 +79,71 @@ void Simulation::find_initial_state() {
     state_ = displaced;
   }
   state_.velocity = model_.initial_velocity;
+}
+
+void Simulation::check_stages_fit() const {
+  if (model_.stages.empty()) return;
+  Diagnostics diagnostics;
+  check_stages(model_.stages, diagnostics);
+  const Location& at = model_.stages.front().at;
+  if (!model_.gravity_statically_first && model_.gravity_load.cwiseAbs().maxCoeff() > 0) {
+    diagnostics.error(at, "static stages begin at rest: they need statically_first = true in [gravity]");
+  }
+  if (model_.initial_displacement.cwiseAbs().maxCoeff() > 0) {
+    diagnostics.error(at, "static stages begin at rest: initial displacements cannot be given beside them");
+  }
+  for (const Structure& structure : model_.structures) {
+    if (structure.may_move_freely) {
+      diagnostics.error(structure.at, fmt::format("structure '{}' may move freely: static stages need structures that resist",
+                                                  structure.name));
+    }
+  }
+  diagnostics.throw_if_any();
+}
+
+// M phi, forces of 1 N in all. A mode has no sign of its own: L, T and V push along x, y and z, R turns about z.
+VectorX Simulation::mode_pattern(const StaticStage& stage) const {
+  const std::size_t dot = stage.mode.rfind('.');
+  const std::string structure = stage.mode.substr(0, dot), mode = stage.mode.substr(dot + 1);
+  Diagnostics diagnostics;
+  for (std::size_t s = 0; s < modes_.size(); ++s) {
+    if (model_.structures[s].name != structure) continue;
+    const auto found = std::find(modes_[s].names.begin(), modes_[s].names.end(), mode);
+    if (found == modes_[s].names.end()) {
+      diagnostics.error(stage.mode_at, fmt::format("structure '{}' has no mode '{}' among its first {}{}", structure, mode,
+                                                   modes_[s].names.size(), did_you_mean(mode, modes_[s].names)));
+      break;
+    }
+    const int first = model_.structures[s].first_dof, size = model_.structures[s].last_dof - first;
+    VectorX shape = VectorX::Zero(model_.dofs.size());
+    shape.segment(first, size) = modes_[s].modes.shape.col(found - modes_[s].names.begin());
+    const VectorX full = model_.nodal_mass.cwiseProduct(model_.dofs.expand(shape));
+    double forces = 0;
+    Eigen::Vector4d pushed = Eigen::Vector4d::Zero();  // along x, y and z, and turned about z
+    for (int i = 0; i < model_.nodes.size(); ++i) {
+      const Vector3 force = full.segment<3>(6 * i), place = model_.nodes.position[static_cast<std::size_t>(i)];
+      forces += force.lpNorm<1>();
+      pushed.head<3>() += force;
+      pushed[3] += place.x() * force.y() - place.y() * force.x() + full[6 * i + 5];
+    }
+    if (!(forces > 0)) {
+      diagnostics.error(stage.mode_at, fmt::format("mode '{}' moves no mass along x, y or z: no load can follow it", stage.mode));
+      break;
+    }
+    const double sense = pushed[mode[0] == 'L' ? 0 : mode[0] == 'T' ? 1 : mode[0] == 'V' ? 2 : 3];
+    return std::copysign(1 / forces, sense) * (model_.mass * shape);
+  }
+  diagnostics.throw_if_any();
+  return {};
+}
+
+bool Simulation::run_stages(std::size_t count, const StageControl& control, std::vector<StageResult>& results) {
+  for (std::size_t i = 0; i < count; ++i) {
+    results.push_back(run_stage(system_, stages_[i], control, state_));
+    if (!results.back().completed) return false;
+  }
+  if (count > 0) state_.acceleration.setZero();
+  return true;
 }
 
 double Simulation::duration() const {
@@ -109,8 +182,27 @@ Summary Simulation::outline() const {
   return summary;
 }
 
-Summary Simulation::run(const std::vector<Observer*>& observers, const RunControl& control) {
+Summary Simulation::run(const std::vector<Observer*>& observers, const RunControl& control,
+                        const std::vector<StageObserver*>& stage_observers) {
   Summary summary = outline();
+  const Timer stage_clock;
+  const bool arrived = run_stages(stages_.size(), {options_.algorithm, stage_observers, control.stop_requested}, summary.stages);
+  if (!arrived || (!stages_.empty() && !(duration() > 0))) {
+    summary.completed = arrived;
+    if (!arrived) {
+      summary.interrupted = summary.stages.back().interrupted;
+      summary.stop_reason = summary.stages.back().stop_reason;
+    }
+    summary.timing = {setup_seconds_, stage_clock.seconds(), 0};
+    return summary;
+  }
+  if (system_.damping.follows_tangent()) {
+    State trial = state_;
+    system_.assembler.start_step(state_.history, trial.history);
+    system_.assembler.internal_force(state_.displacement, state_.history, trial.history, trial.internal_force);
+    const SparseMatrix& K = system_.assembler.tangent();
+    state_.damping_stiffness = Eigen::Map<const VectorX>(K.valuePtr(), K.nonZeros());
+  }
   if (!(duration() > 0)) throw InputError("error: analysis.duration is missing, and there is no motion to take it from");
   TimeHistoryResult result = run_time_history(system_, *scheme_, options_, duration(), state_, observers, control);
   summary.steps = result.steps;
@@ -122,6 +214,8 @@ Summary Simulation::run(const std::vector<Observer*>& observers, const RunContro
   summary.max_complementarity_error = result.max_complementarity_error;
   summary.newton_iterations = result.newton_iterations;
   summary.halved_steps = result.halved_steps;
+  summary.laddered_steps = result.laddered_steps;
+  summary.ladder = std::move(result.ladder);
   summary.factorizations = scheme_->factorizations();
   summary.completed = result.completed;
   summary.interrupted = result.interrupted;

@@ -5,44 +5,10 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
+#include "integrators/algorithms.hpp"
+#include "integrators/static_step.hpp"
 
 namespace nsframe {
-
-namespace {
-
-// Solves K x = r for a general sparse K.
-VectorX solve_sparse(const SparseMatrix& K, bool symmetric, const VectorX& r) {
-  if (symmetric) {
-    const Eigen::SimplicialLDLT<SparseMatrix> factor(K);
-    if (factor.info() == Eigen::Success) {
-      const VectorX x = factor.solve(r);
-      if (x.allFinite()) return x;
-    }
-  }
-  Eigen::SparseLU<SparseMatrix> factor(K);
-  if (factor.info() != Eigen::Success) throw ConvergenceError("the stiffness is singular under static loads");
-  return factor.solve(r);
-}
-
-// One load level by Newton; false when it does not converge. `start`: norm of the internal force of the first level, which
-// is all that there is to compare with where pretension alone is released.
-bool reach(System& system, const VectorX& load, double start, const StaticOptions& options, const State& committed, State& trial,
-           double& worst) {
-  trial = committed;
-  system.assembler.start_step(committed.history, trial.history);
-  for (int iteration = 0; iteration <= options.max_iterations; ++iteration) {
-    system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force);
-    const VectorX residual = load - trial.internal_force;
-    const double scale = std::max({load.norm(), trial.internal_force.norm(), start});
-    worst = residual.norm() / std::max(scale, 1e-300);
-    if (residual.norm() <= options.tolerance * scale) return true;
-    if (!residual.allFinite()) return false;
-    trial.displacement += solve_sparse(system.assembler.tangent(), system.assembler.symmetric(), residual);
-  }
-  return false;
-}
-
-}  // namespace
 
 State virgin_state(System& system) {
   State state;
@@ -57,31 +23,35 @@ State virgin_state(System& system) {
 }
 
 void solve_static(System& system, const VectorX& load, const StaticOptions& options, State& state) {
-  const VectorX start = state.internal_force;
-  double reached = 0, increment = 1;
-  State trial = state;
-  for (int halvings = 0; reached < 1;) {
-    const double level = std::min(1.0, reached + increment);
-    double worst = 0;
-    bool converged = false;
-    std::string reason;
-    try {
-      converged = reach(system, start + level * (load - start), start.norm(), options, state, trial, worst);
-    } catch (const ConvergenceError& problem) {
-      reason = std::string(": ") + problem.what();
-    }
-    if (converged) {
-      std::swap(state, trial);
-      reached = level;
+  const VectorX start = state.internal_force, change = load - start;
+  // the norm of the internal force at the start is all that there is to compare with where pretension alone is released
+  const StaticTolerance tolerance{options.tolerance, start.norm()};
+  StaticStep step(system, start, change, 1);
+  StaticPoint committed{state, 0};
+  double increment = 1;
+  Ladder ladder({});
+  std::vector<Attempt> attempts;
+  for (int halvings = 0; committed.factor < 1;) {
+    const double level = std::min(1.0, committed.factor + increment);
+    const auto constraint = [level](const VectorX& q, double factor, StaticConstraint& c) {
+      c = {factor - level, 1e-12, VectorX::Zero(q.size()), 1};
+    };
+    step.prepare(committed, constraint, VectorX::Zero(load.size()), 0, tolerance);
+    if (ladder.climb(step, options.max_iterations, attempts)) {
+      step.trial().factor = level;
+      std::swap(committed, step.trial());
       continue;
     }
     if (++halvings > options.max_halvings) {
+      state = committed.state;
       throw ConvergenceError(fmt::format("static equilibrium not found at {:.4g} of the load (relative residual {:.1e}), "
                                          "largest in element '{}'{}",
-                                         level, worst, system.assembler.worst_element(load - trial.internal_force), reason));
+                                         level, step.relative_residual(), step.worst_element(),
+                                         attempts.back().reason.empty() ? "" : ": " + attempts.back().reason));
     }
     increment /= 2;
   }
+  state = std::move(committed.state);
 }
 
 }  // namespace nsframe

@@ -1,4 +1,4 @@
-// Static equilibrium P(q) = load by Newton-Raphson with load increments.
+// Static equilibrium P(q) = load, by the ladder of solution algorithms with load increments.
 #pragma once
 
 #include "assembly/system.hpp"

@@ -18,6 +18,7 @@ void visit_sums(Sums& sums, const Visit& visit) {
   visit("steps", sums.steps);
   visit("newton_iterations", sums.newton_iterations);
   visit("halved_steps", sums.halved_steps);
+  visit("laddered_steps", sums.laddered_steps);
   visit("kinetic", sums.energy.kinetic);
   visit("strain", sums.energy.strain);
   visit("damping", sums.energy.damping);
@@ -32,9 +33,12 @@ void visit_sums(Sums& sums, const Visit& visit) {
   visit("observer_seconds", sums.observer_seconds);
 }
 
-// Numbers that change when the mass or a record does: a scene only names its records.
+// Numbers that change when the mass, a record or a file of targets does: a scene only names its files.
 std::vector<double> fingerprint(const Model& model) {
   std::vector<double> numbers{model.mass.norm(), model.viscous_damping.norm(), model.gravity_load.norm()};
+  for (const StaticStage& stage : model.stages) {  // targets may come from a file
+    numbers.insert(numbers.end(), stage.options.targets.begin(), stage.options.targets.end());
+  }
   for (const GroundMotion& motion : model.motions) {
     const Eigen::Map<const VectorX> samples(motion.acceleration.data(), static_cast<Eigen::Index>(motion.acceleration.size()));
     numbers.insert(numbers.end(), {motion.duration(), samples.sum(), samples.norm()});
@@ -56,6 +60,8 @@ class TimeHistory {
   bool step(int number, const State& committed, State& trial);
   // Advances `committed` by h into `trial`, in halves where Newton fails.
   void advance(const State& committed, State& trial, double h, int halvings);
+  // Notes steps in which the first algorithm failed.
+  void record_ladder(const State& committed);
   void add(const StepResult& step);
   void watch_energy(const State& state);
   bool stop_now();
@@ -89,8 +95,10 @@ class TimeHistory {
 void TimeHistory::advance(const State& committed, State& trial, double h, int halvings) {
   try {
     scheme_.step(system_, committed, trial, h, step_);
+    record_ladder(committed);
     add(step_);
   } catch (const ConvergenceError&) {
+    record_ladder(committed);
     if (halvings >= options_.max_halvings) throw;
     ++result_.halved_steps;
     ++report_.substeps;
@@ -99,6 +107,12 @@ void TimeHistory::advance(const State& committed, State& trial, double h, int ha
     advance(middle, trial, h / 2, halvings + 1);
     trial.impulse += middle.impulse;
   }
+}
+
+void TimeHistory::record_ladder(const State& committed) {
+  if (step_.attempts.empty() || step_.attempts.front().converged) return;
+  ++result_.laddered_steps;
+  if (result_.ladder.size() < most_ladder_records) result_.ladder.push_back({"", result_.steps + 1, committed.time, step_.attempts});
 }
 
 void TimeHistory::add(const StepResult& step) {
@@ -187,6 +201,7 @@ void TimeHistory::save(const State& committed) {
     snapshot.put(std::string("time_history.") + name, static_cast<double>(value));
   });
   nsframe::save("time_history.impacts", result_.impacts, snapshot);
+  nsframe::save("time_history.ladder", result_.ladder, snapshot);
   control_.keep_snapshot(snapshot);
   last_save_ = clock_.seconds();
 }
@@ -204,6 +219,7 @@ void TimeHistory::restore(State& committed) {
   });
   earlier_seconds_ = snapshot.number("time_history.wall_seconds");
   result_.impacts = restore_impacts("time_history.impacts", snapshot);
+  result_.ladder = restore_ladder("time_history.ladder", snapshot);
 }
 
 TimeHistoryResult TimeHistory::run(double duration, State& committed) {

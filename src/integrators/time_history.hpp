@@ -8,10 +8,12 @@
 
 namespace nsframe {
 
+inline constexpr std::size_t most_ladder_records = 200;
+
 // Sums over the accepted steps.
 struct RunSums {
   int steps = 0;
-  long newton_iterations = 0, halved_steps = 0;
+  long newton_iterations = 0, halved_steps = 0, laddered_steps = 0;
   Energy energy;
   double largest_energy = 0;         // of all kinds and steps so far [J]
   double worst_balance_error = 0;    // relative to the largest energy so far
@@ -21,6 +23,7 @@ struct RunSums {
 
 struct TimeHistoryResult : RunSums {
   std::vector<Impact> impacts;
+  std::vector<LadderRecord> ladder;  // of the first laddered_steps, at most most_ladder_records
   bool completed = false;
   bool interrupted = false;          // stop_requested() said so
   std::string stop_reason;

@@ -170,18 +170,18 @@ void Hdf5File::close() {
 
 bool Hdf5File::has(const std::string& name) const {
   const QuietHdf5 quiet;
-  return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
+  return H5Lexists(file_, in_folder(name).c_str(), H5P_DEFAULT) > 0;
 }
 
 void Hdf5File::remove(const std::string& name) {
   if (!has(name)) return;
   const QuietHdf5 quiet;
-  check(H5Ldelete(file_, name.c_str(), H5P_DEFAULT), name);
+  check(H5Ldelete(file_, in_folder(name).c_str(), H5P_DEFAULT), name);
 }
 
 void Hdf5File::remove_attribute(const std::string& object, const std::string& name) {
-  if (H5Aexists_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT) <= 0) return;
-  check(H5Adelete_by_name(file_, object.c_str(), name.c_str(), H5P_DEFAULT), object);
+  if (H5Aexists_by_name(file_, in_folder(object).c_str(), name.c_str(), H5P_DEFAULT) <= 0) return;
+  check(H5Adelete_by_name(file_, in_folder(object).c_str(), name.c_str(), H5P_DEFAULT), object);
 }
 
 void Hdf5File::make_group(const std::string& name) {
@@ -191,7 +191,7 @@ void Hdf5File::make_group(const std::string& name) {
   H5Pset_create_intermediate_group(links, 1);
   const Hdf5Id properties(H5Pcreate(H5P_GROUP_CREATE), H5Pclose);
   H5Pset_obj_track_times(properties, false);
-  const Hdf5Id group(check(H5Gcreate2(file_, name.c_str(), links, properties, H5P_DEFAULT), name), H5Gclose);
+  const Hdf5Id group(check(H5Gcreate2(file_, in_folder(name).c_str(), links, properties, H5P_DEFAULT), name), H5Gclose);
 }
 
 void Hdf5File::write_text(const std::string& name, const std::string& text) {
@@ -200,7 +200,7 @@ void Hdf5File::write_text(const std::string& name, const std::string& text) {
   const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
   const Hdf5Id properties = data_set_properties();
   const Hdf5Id data(
-      check(H5Dcreate2(file_, name.c_str(), text_type_, space, H5P_DEFAULT, properties, H5P_DEFAULT), name), H5Dclose);
+      check(H5Dcreate2(file_, in_folder(name).c_str(), text_type_, space, H5P_DEFAULT, properties, H5P_DEFAULT), name), H5Dclose);
   const char* start = text.c_str();
   check(H5Dwrite(data, text_type_, H5S_ALL, H5S_ALL, H5P_DEFAULT, &start), name);
 }
@@ -211,7 +211,7 @@ void Hdf5File::write_texts(const std::string& name, const std::vector<std::strin
   const Hdf5Id space = simple_space(texts.size());
   const Hdf5Id properties = data_set_properties();
   const Hdf5Id data(
-      check(H5Dcreate2(file_, name.c_str(), text_type_, space, H5P_DEFAULT, properties, H5P_DEFAULT), name), H5Dclose);
+      check(H5Dcreate2(file_, in_folder(name).c_str(), text_type_, space, H5P_DEFAULT, properties, H5P_DEFAULT), name), H5Dclose);
   if (!texts.empty()) check(H5Dwrite(data, text_type_, H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers(texts).data()), name);
 }
 
@@ -222,7 +222,7 @@ void Hdf5File::write_numbers(const std::string& name, const std::vector<double>&
   const Hdf5Id space(check(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), name), H5Sclose);
   const Hdf5Id properties = data_set_properties();
   const Hdf5Id data(
-      check(H5Dcreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, H5P_DEFAULT), name),
+      check(H5Dcreate2(file_, in_folder(name).c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, H5P_DEFAULT), name),
       H5Dclose);
   if (!values.empty()) {
     check(H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
@@ -233,7 +233,7 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
   const QuietHdf5 quiet;
   remove_attribute(object, name);
   const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Id attribute(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), text_type_, space, H5P_DEFAULT,
+  const Hdf5Id attribute(check(H5Acreate_by_name(file_, in_folder(object).c_str(), name.c_str(), text_type_, space, H5P_DEFAULT,
                                                  H5P_DEFAULT, H5P_DEFAULT),
                                object),
                          H5Aclose);
@@ -246,7 +246,7 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
   const QuietHdf5 quiet;
   remove_attribute(object, name);
   const Hdf5Id space = simple_space(texts.size());
-  const Hdf5Id attribute(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), text_type_, space, H5P_DEFAULT,
+  const Hdf5Id attribute(check(H5Acreate_by_name(file_, in_folder(object).c_str(), name.c_str(), text_type_, space, H5P_DEFAULT,
                                                  H5P_DEFAULT, H5P_DEFAULT),
                                object),
                          H5Aclose);
@@ -257,7 +257,7 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
   const QuietHdf5 quiet;
   remove_attribute(object, name);
   const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose);
-  const Hdf5Id attribute(check(H5Acreate_by_name(file_, object.c_str(), name.c_str(), H5T_NATIVE_DOUBLE, space,
+  const Hdf5Id attribute(check(H5Acreate_by_name(file_, in_folder(object).c_str(), name.c_str(), H5T_NATIVE_DOUBLE, space,
                                                  H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
                                object),
                          H5Aclose);
@@ -266,7 +266,7 @@ void Hdf5File::set_attribute(const std::string& object, const std::string& name,
 
 template <class Value>
 Hdf5Series<Value>::Hdf5Series(Hdf5File& file, const std::string& name, std::vector<hsize_t> shape, hsize_t block)
-    : file_(&file), name_(name), shape_(std::move(shape)) {
+    : file_(&file), name_(file.in_folder(name)), shape_(std::move(shape)) {
   for (const hsize_t size : shape_) row_size_ *= size;
   if (file.has(name)) {
     open();

@@ -65,6 +65,9 @@ class Hdf5File {
 
   hid_t id() const { return file_; }
   const std::filesystem::path& path() const { return path_; }
+  // Names from now on are below this group, e.g. "/static/push"; empty: below the root.
+  void set_folder(std::string folder) { folder_ = std::move(folder); }
+  std::string in_folder(const std::string& name) const { return folder_ + name; }
   bool has(const std::string& name) const;
   void remove(const std::string& name);  // an object that may exist
   void make_group(const std::string& name);
@@ -86,6 +89,7 @@ class Hdf5File {
   void cut_off() const;
   int descriptor() const;
 
+  std::string folder_;
   std::filesystem::path path_, partial_;
   bool published_ = false;
   Hdf5Id file_, text_type_;

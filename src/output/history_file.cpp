@@ -38,13 +38,19 @@ void check_names(const std::vector<std::string>& histories) {
 
 }  // namespace
 
-class HistoryFile::Writer {
+class HistoryFile::Writer : public StageObserver {
  public:
   Writer(std::filesystem::path path, const OutputOptions& options, std::string scene_text, const FloorSpectra* spectra)
       : path_(std::move(path)), options_(options), scene_(std::move(scene_text)), spectra_(spectra), clock_(options.history_rate) {
     check_names(options_.history);
   }
-  ~Writer();
+  ~Writer() override;
+
+  // A static stage: its own rows below /static/<stage>.
+  void start(const Model& model, const StaticStage& stage, const State& state) override;
+  void point(const StagePoint& point, const State& state) override;
+  void finish(const StageResult& result) override;
+  void close();
 
   void start(const Model& model, const State& state);
   void step(const State& before, const State& after, const Energy& energy);
@@ -62,7 +68,9 @@ class HistoryFile::Writer {
   bool asked(const char* name) const {
     return std::find(options_.history.begin(), options_.history.end(), name) != options_.history.end();
   }
+  void open_file(Hdf5File::Mode mode);
   void open(const Model& model, const State& state, Hdf5File::Mode mode);
+  void publish();
   void add_row(const Sample& sample);
   void write_block();
 
@@ -74,9 +82,11 @@ class HistoryFile::Writer {
   const Model* model_ = nullptr;
   std::optional<Hdf5File> file_;  // before the series, which refer to it
   std::optional<Hdf5Series<double>> time_;
-  std::vector<std::unique_ptr<HistoryPart>> parts_;
+  std::vector<std::unique_ptr<HistoryPart>> parts_, stage_parts_;
+  std::vector<Hdf5Series<double>> stage_columns_;
   std::unique_ptr<ImpactRows> impact_rows_;
   std::vector<Impact> impacts_;
+  bool published_ = false;
   VectorX impulse_;  // since the last row [N s]
   Energy energy_;
   std::size_t rows_ = 0, block_ = 1;  // rows buffered, and buffered at most
@@ -93,16 +103,77 @@ HistoryFile::Writer::~Writer() {
   }
 }
 
-// The file with all its data sets, new or as they are.
-void HistoryFile::Writer::open(const Model& model, const State& state, Hdf5File::Mode mode) {
-  model_ = &model;
+void HistoryFile::Writer::open_file(Hdf5File::Mode mode) {
+  if (file_) return;
   make_folder(path_.parent_path());
   file_.emplace(path_, mode);
   file_->set_attribute("/", "program", "nsframe");
   file_->set_attribute("/", "version", NSFRAME_VERSION);
   file_->set_attribute("/", "finished", 0.0);
   file_->write_text("/scene", scene_);
+  if (mode == Hdf5File::Mode::create) file_->make_group("/static");
+}
 
+void HistoryFile::Writer::publish() {
+  if (!published_) file_->publish();
+  published_ = true;
+}
+
+void HistoryFile::Writer::start(const Model& model, const StaticStage& stage, const State& state) {
+  constexpr hsize_t block = 64;
+  model_ = &model;
+  open_file(Hdf5File::Mode::create);
+  const std::string group = "/static/" + stage.name;
+  file_->make_group(group);
+  file_->set_attribute(group, "control", stage.options.control);
+  file_->set_attribute(group, "at", stage.control_name);
+  file_->set_folder(group);
+  for (const auto& [name, units] : {std::pair{"/load_factor", "1"}, {"/control_displacement", "m or rad"}, {"/iterations", "1"}}) {
+    stage_columns_.emplace_back(*file_, name, std::vector<hsize_t>{}, block);
+    file_->set_attribute(name, "units", units);
+  }
+  if (asked("nodes")) stage_parts_.push_back(node_history(model, options_.nodes, true));
+  if (asked("elements")) stage_parts_.push_back(member_history(model));
+  if (asked("sections")) stage_parts_.push_back(section_history(model, state));
+  for (auto& part : stage_parts_) part->create(*file_, block);
+  file_->set_folder("");
+}
+
+void HistoryFile::Writer::point(const StagePoint& point, const State& state) {
+  *stage_columns_[0].add_row() = point.load_factor;
+  *stage_columns_[1].add_row() = point.displacement;
+  *stage_columns_[2].add_row() = point.iterations;
+  for (auto& part : stage_parts_) part->add_row(*model_, {state, state, 0, energy_, impulse_});
+  if (++rows_ < 64) return;
+  for (auto& column : stage_columns_) column.write();
+  for (auto& part : stage_parts_) part->write();
+  file_->flush();
+  publish();
+  rows_ = 0;
+}
+
+void HistoryFile::Writer::finish(const StageResult& result) {
+  for (auto& column : stage_columns_) column.write();
+  for (auto& part : stage_parts_) part->write();
+  file_->set_attribute("/static/" + result.name, "completed", result.completed ? 1.0 : 0.0);
+  file_->flush();
+  publish();
+  rows_ = 0;
+  stage_columns_.clear();
+  stage_parts_.clear();
+}
+
+void HistoryFile::Writer::close() {
+  if (!file_) return;
+  mark_finished(*file_);
+  file_->close();
+  file_.reset();
+}
+
+// The file with all its data sets, new or as they are.
+void HistoryFile::Writer::open(const Model& model, const State& state, Hdf5File::Mode mode) {
+  model_ = &model;
+  open_file(mode);
   if (asked("nodes")) parts_.push_back(node_history(model, options_.nodes));
   if (asked("elements")) parts_.push_back(member_history(model));
   if (asked("sections")) parts_.push_back(section_history(model, state));
@@ -129,7 +200,7 @@ void HistoryFile::Writer::start(const Model& model, const State& state) {
   if (!parts_.empty()) add_row({state, state, 0, energy_, impulse_});
   last_write_ = Clock::now();
   write_block();
-  file_->publish();
+  publish();
 }
 
 void HistoryFile::Writer::step(const State& before, const State& after, const Energy& energy) {
@@ -224,6 +295,10 @@ void HistoryFile::save(Snapshot& snapshot) { writer_->save(snapshot); }
 void HistoryFile::resume(const Model& model, const State& state, const Snapshot& snapshot) {
   writer_->resume(model, state, snapshot);
 }
+
+StageObserver& HistoryFile::stages() { return *writer_; }
+
+void HistoryFile::close() { writer_->close(); }
 
 double HistoryFile::seconds() const { return writer_->seconds(); }
 

@@ -24,6 +24,8 @@ class FloorSpectra;
 //   /impacts/time, pair, approach_velocity, impulse, rate_before, rate_after (i)
 //   /poundings/time, duration, pair, approach_velocity, impulse, effective_restitution, impacts
 //   /floor_spectra/node (m), period (p); displacement, pseudo_velocity, pseudo_acceleration (m, 3, p), along x, y, z
+//   /static/<stage>/load_factor, control_displacement, iterations (n, the first row is the start), and below it nodes (but
+//     for velocity and acceleration, which are zero), elements and sections as above; attributes control, at, completed
 //   /scene, the complete scene as text; attributes program, version, finished
 // Only histories named in OutputOptions::history have rows; without any, a step costs nothing.
 // Rows are written in blocks and flushed, so that after a crash everything but the last block is readable, and a run
@@ -45,6 +47,10 @@ class HistoryFile : public Observer {
   void resume(const Model& model, const State& state, const Snapshot& snapshot) override;
 
   double seconds() const;  // spent writing blocks
+
+  // Watches the static stages that come before start(), or are all that there is: then close() ends the file.
+  StageObserver& stages();
+  void close();
 
  private:
   class Writer;

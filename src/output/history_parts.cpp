@@ -12,7 +12,7 @@ const std::vector<std::string> dof_names(node_dof_names.begin(), node_dof_names.
 
 class NodePart : public HistoryPart {
  public:
-  NodePart(const Model& model, const std::vector<std::string>& names) {
+  NodePart(const Model& model, const std::vector<std::string>& names, bool at_rest) : at_rest_(at_rest) {
     const auto nodes = find_nodes(model.nodes, names);
     for (const int node : nodes) ids_.push_back(model.nodes.id[static_cast<std::size_t>(node)]);
     rows_ = TransformationRows(model.dofs, full_dofs(nodes, {0, 1, 2, 3, 4, 5}));
@@ -25,10 +25,11 @@ class NodePart : public HistoryPart {
     file.write_texts("/nodes/id", ids_);
     const std::vector<hsize_t> shape{ids_.size(), 6};
     add_series(file, "/nodes/displacement", shape, block, "m, m, m, rad, rad, rad", dof_names);
+    file.set_attribute("/nodes/displacement", "relative_to", "base");
+    if (at_rest_) return;
     add_series(file, "/nodes/velocity", shape, block, "m/s, m/s, m/s, rad/s, rad/s, rad/s", dof_names);
     add_series(file, "/nodes/acceleration_absolute", shape, block, "m/s2, m/s2, m/s2, rad/s2, rad/s2, rad/s2",
                dof_names);
-    file.set_attribute("/nodes/displacement", "relative_to", "base");
     file.set_attribute("/nodes/velocity", "relative_to", "base");
     file.set_attribute("/nodes/acceleration_absolute", "description",
                        "velocity difference over the step divided by dt, plus that of the ground; 0 in the first row");
@@ -36,6 +37,7 @@ class NodePart : public HistoryPart {
 
   void add_row(const Model& model, const Sample& sample) override {
     rows_.multiply(sample.after.displacement.data(), series_[0].add_row());
+    if (at_rest_) return;
     rows_.multiply(sample.after.velocity.data(), series_[1].add_row());
     double* absolute = series_[2].add_row();  // zeros
     if (sample.dt <= 0) return;
@@ -49,6 +51,7 @@ class NodePart : public HistoryPart {
   }
 
  private:
+  bool at_rest_;
   std::vector<std::string> ids_;
   TransformationRows rows_;
   VectorX acceleration_;
@@ -129,8 +132,8 @@ Hdf5Series<double>& HistoryPart::add_series(Hdf5File& file, const std::string& n
   return series_.back();
 }
 
-std::unique_ptr<HistoryPart> node_history(const Model& model, const std::vector<std::string>& nodes) {
-  return std::make_unique<NodePart>(model, nodes);
+std::unique_ptr<HistoryPart> node_history(const Model& model, const std::vector<std::string>& nodes, bool at_rest) {
+  return std::make_unique<NodePart>(model, nodes, at_rest);
 }
 
 std::unique_ptr<HistoryPart> contact_history(const Model& model) { return std::make_unique<ContactPart>(model); }

@@ -39,7 +39,8 @@ class HistoryPart {
   std::vector<Hdf5Series<double>> series_;
 };
 
-std::unique_ptr<HistoryPart> node_history(const Model& model, const std::vector<std::string>& nodes);
+// `at_rest`: displacements only.
+std::unique_ptr<HistoryPart> node_history(const Model& model, const std::vector<std::string>& nodes, bool at_rest = false);
 std::unique_ptr<HistoryPart> member_history(const Model& model);
 std::unique_ptr<HistoryPart> section_history(const Model& model, const State& state);
 // `elements`: as choose_fibers() reads them. Throws InputError for wrong ones.

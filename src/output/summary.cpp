@@ -49,6 +49,48 @@ Json poundings_json(const Summary& summary) {
   return list;
 }
 
+Json ladder_json(const std::vector<LadderRecord>& records) {
+  Json list = Json::array();
+  for (const auto& record : records) {
+    Json attempts = Json::array();
+    for (const auto& attempt : record.attempts) {
+      attempts.push_back({{"algorithm", attempt.algorithm},
+                          {"iterations", attempt.iterations},
+                          {"converged", attempt.converged},
+                          {"error", attempt.error},
+                          {"reason", attempt.reason}});
+    }
+    list.push_back({{"step", record.step}, {record.stage.empty() ? "t" : "load_factor", record.at}, {"attempts", attempts}});
+  }
+  return list;
+}
+
+// The whole curve is in results.h5; here its ends and its largest load factor.
+Json stages_json(const Summary& summary) {
+  Json list = Json::array();
+  for (const auto& stage : summary.stages) {
+    const auto by_factor = [](const StagePoint& a, const StagePoint& b) { return a.load_factor < b.load_factor; };
+    const auto [least, most] = std::minmax_element(stage.points.begin(), stage.points.end(), by_factor);
+    list.push_back({{"stage", stage.name},
+                    {"control", stage.control},
+                    {"at", stage.at},
+                    {"completed", stage.completed},
+                    {"stop_reason", stage.stop_reason},
+                    {"points", stage.points.size() - 1},
+                    {"load_factor", stage.points.back().load_factor},
+                    {"control_displacement", stage.points.back().displacement},
+                    {"largest_load_factor", most->load_factor},
+                    {"displacement_at_largest", most->displacement},
+                    {"least_load_factor", least->load_factor},
+                    {"displacement_at_least", least->displacement},
+                    {"iterations", stage.iterations},
+                    {"halved", stage.halved},
+                    {"factorizations", stage.factorizations},
+                    {"ladder", ladder_json(stage.ladder)}});
+  }
+  return list;
+}
+
 Json peaks_json(const Summary& summary) {
   Json list = Json::array();
   for (const auto& peak : summary.peaks) {
@@ -201,6 +243,13 @@ std::vector<ModeNumerics> modes_that_matter(const Summary& summary) {
 
 std::vector<std::string> numerical_warnings(const Summary& summary) {
   std::vector<std::string> warnings;
+  for (const StageResult& stage : summary.stages) {
+    if (stage.least_gap >= 0) continue;
+    warnings.push_back(fmt::format("static stage '{}' closes a contact by {:.3g} mm: contacts do not act in static stages, structures "
+                                   "pass through each other there",
+                                   stage.name, -1e3 * stage.least_gap));
+  }
+  if (summary.steps == 0 && !summary.stages.empty()) return warnings;  // static only
   const auto modes = modes_that_matter(summary);
   warn_of_damping(summary, modes, warnings);
   warn_of_shift(summary, modes, warnings);
@@ -238,6 +287,7 @@ std::string summary_json(const Summary& summary) {
       {"frequencies", summary.frequencies},
       {"numerical_damping", modes_json(summary)},
       {"pairs", summary.pairs},
+      {"stages", stages_json(summary)},
       {"impacts", impacts_json(summary)},
       {"poundings", poundings_json(summary)},
       {"peaks", peaks_json(summary)},
@@ -248,6 +298,8 @@ std::string summary_json(const Summary& summary) {
       {"max_complementarity_error", summary.max_complementarity_error},
       {"newton_iterations", summary.newton_iterations},
       {"halved_steps", summary.halved_steps},
+      {"laddered_steps", summary.laddered_steps},
+      {"ladder", ladder_json(summary.ladder)},
       {"factorizations", summary.factorizations},
       {"timing",
        {{"setup", summary.timing.setup}, {"step_loop", summary.timing.step_loop}, {"output", summary.timing.output}}},

@@ -69,9 +69,17 @@ std::string pair_name(const Summary& summary, int pair) {
   return pair >= 0 && i < summary.pairs.size() ? summary.pairs[i] : fmt::format("pair {}", pair);
 }
 
+bool static_only(const Summary& summary) { return summary.steps == 0 && !summary.stages.empty(); }
+
 void put_head(Buffer& out, const Summary& summary) {
   if (!summary.title.empty()) line(out, "{}", shortened(summary.title, columns));
   const auto count = [](int number, const char* what) { return counted(static_cast<std::size_t>(number), what); };
+  if (static_only(summary)) {
+    line(out, "static, {}, {}{}", count(summary.dofs, "free DOF"), count(summary.elements, "element"),
+         summary.fibers > 0 ? ", " + count(summary.fibers, "fiber") : "");
+    if (!summary.completed) paragraph(out, "STOPPED: " + summary.stop_reason, 4);
+    return;
+  }
   line(out, "{}, dt {:g} ms, {} to {:g} s, {}, {}{}", summary.scheme, 1e3 * summary.dt, count(summary.steps, "step"),
        summary.end_time, count(summary.dofs, "free DOF"), count(summary.elements, "element"),
        summary.fibers > 0 ? ", " + count(summary.fibers, "fiber") : "");
@@ -79,6 +87,43 @@ void put_head(Buffer& out, const Summary& summary) {
     line(out, "STOPPED at {:g} s of {:g} s:", summary.end_time, summary.duration);
     paragraph(out, summary.stop_reason, 4);
   }
+}
+
+// "newton failed (12 iterations), krylov converged in 7".
+std::string told(const std::vector<Attempt>& attempts) {
+  std::string text;
+  for (const Attempt& attempt : attempts) {
+    text += text.empty() ? "" : ", ";
+    text += attempt.converged ? fmt::format("{} converged in {}", attempt.algorithm, attempt.iterations)
+                              : fmt::format("{} failed ({})", attempt.algorithm,
+                                            counted(static_cast<std::size_t>(attempt.iterations), "iteration"));
+  }
+  return text;
+}
+
+void put_ladder(Buffer& out, const std::vector<LadderRecord>& records, const char* step, long count) {
+  constexpr std::size_t most = 5;
+  for (std::size_t i = 0; i < std::min(most, records.size()); ++i) {
+    paragraph(out, fmt::format("{} {}: {}", step, records[i].step, told(records[i].attempts)), 4);
+  }
+  if (count > static_cast<long>(most)) line(out, "  ... and {} more, in summary.json", count - static_cast<long>(most));
+}
+
+void put_stage(Buffer& out, const StageResult& stage) {
+  line(out, "\nStatic stage '{}' by {}: {} to load factor {:.6g}, {}{}{}", stage.name, stage.control,
+       counted(stage.points.size() - 1, "point"), stage.points.back().load_factor,
+       counted(static_cast<std::size_t>(stage.iterations), "iteration"),
+       stage.halved > 0 ? fmt::format(", {} smaller", counted(static_cast<std::size_t>(stage.halved), "increment")) : "",
+       stage.completed ? "" : ", STOPPED");
+  line(out, "  {:>7}  {:>14}  {:>20}  {:>10}", "point", "load factor", stage.at.empty() ? "-" : shortened(stage.at, 20), "iterations");
+  const std::size_t last = stage.points.size() - 1, rows = std::min(most_rows, last);
+  for (std::size_t i = 0; i <= rows; ++i) {
+    const std::size_t number = rows > 0 ? i * last / rows : 0;
+    const StagePoint& point = stage.points[number];
+    line(out, "  {:>7}  {:>14.6g}  {:>20}  {:>10}", number, point.load_factor,
+         stage.at.empty() ? "" : fmt::format("{:.6g}", point.displacement), point.iterations);
+  }
+  put_ladder(out, stage.ladder, "after point", static_cast<long>(stage.ladder.size()));
 }
 
 void put_poundings(Buffer& out, const Summary& summary) {
@@ -209,9 +254,10 @@ void put_solution(Buffer& out, const Summary& summary) {
     line(out, "  largest penetration {:.3g} mm, largest complementarity error {:.1e}", 1e3 * summary.max_penetration,
          summary.max_complementarity_error);
   }
-  line(out, "  Newton iterations {} ({:.2f} a step), halved steps {}, factorizations {}", summary.newton_iterations,
+  line(out, "  iterations {} ({:.2f} a step), halved steps {}, factorizations {}", summary.newton_iterations,
        summary.steps > 0 ? double(summary.newton_iterations) / summary.steps : 0.0, summary.halved_steps,
        summary.factorizations);
+  put_ladder(out, summary.ladder, "step", summary.laddered_steps);
   const Timing& t = summary.timing;
   line(out, "  wall time: setup {:.3f} s, step loop {:.3f} s ({:.1f} us a step), output {:.3f} s", t.setup, t.step_loop,
        summary.steps > 0 ? 1e6 * t.step_loop / summary.steps : 0.0, t.output);
@@ -222,13 +268,16 @@ void put_solution(Buffer& out, const Summary& summary) {
 std::string summary_text(const Summary& summary) {
   Buffer out;
   put_head(out, summary);
-  put_poundings(out, summary);
-  put_peaks(out, summary);
-  put_drifts(out, summary);
-  put_floor_spectra(out, summary);
-  put_modes(out, summary);
-  put_energy(out, summary);
-  put_solution(out, summary);
+  for (const StageResult& stage : summary.stages) put_stage(out, stage);
+  if (!static_only(summary)) {
+    put_poundings(out, summary);
+    put_peaks(out, summary);
+    put_drifts(out, summary);
+    put_floor_spectra(out, summary);
+    put_modes(out, summary);
+    put_energy(out, summary);
+    put_solution(out, summary);
+  }
   if (!summary.warnings.empty()) {
     line(out, "\nWarnings");
     for (const auto& warning : summary.warnings) paragraph(out, warning, 4);

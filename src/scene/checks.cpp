@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scene/describe.hpp"
 #include "scene/reader.hpp"
@@ -51,6 +52,8 @@ void check(TableReader& table, const DampingTable& damping) {
   for (const auto& [mode, ratio] : damping.ratios.named)
     if (!is_mode_name(mode.name))
       table.error(mode, fmt::format("'{}' is not the name of a mode: L, T, R or V and its number", mode.name));
+  if (damping.kind != DampingKind::rayleigh && damping.stiffness != DampingStiffness::initial)
+    table.error("stiffness", "stiffness belongs to rayleigh damping");
   const bool named = !damping.ratios.named.empty(), listed = !damping.ratios.list.empty();
   switch (damping.kind) {
     case DampingKind::none:
@@ -107,6 +110,27 @@ void check(TableReader& table, const MotionTable& motion) {
 
 void check(TableReader& table, const FloorSpectraOptions& spectra) {
   if (spectra.nodes.empty()) table.error("nodes", "floor spectra need nodes; \"floors\" stands for all floors");
+}
+
+void check(TableReader& table, const StageTable& stage) {
+  const bool load = stage.control.name == "load", arc = stage.control.name == "arc-length";
+  if (stage.name.find('/') != std::string::npos || stage.name.starts_with('.'))
+    table.error("name", "the name of a stage has no '/' and begins with no '.'");
+  if (stage.loads.empty() && !stage.masses && !stage.mode) table.error("loads", "a stage needs loads, masses or a mode");
+  if (stage.mode && (!stage.loads.empty() || stage.masses)) table.error("mode", "a stage has either a mode, or loads and masses");
+  if (stage.mode && stage.mode->name.find('.') == std::string::npos)
+    table.error("mode", fmt::format("'{}' is not a mode, written as \"structure.L1\"", stage.mode->name));
+  const int targets = !stage.to.empty() + !stage.by.empty() + !stage.cycles.empty() + stage.file.has_value();
+  if (targets > 1 || (targets == 0 && !load)) table.error("to", "a stage has one of to, by, cycles and file");
+  if (load && !stage.by.empty()) table.error("by", "control by load goes `to` a load factor");
+  if (!load && !stage.control_dof) table.error("control", "this control needs a node and a DOF: at = [\"structure.node\", \"ux\"]");
+  for (const auto& [amplitude, count] : stage.cycles)
+    if (!(count >= 1 && count <= 1e6) || count != std::floor(count))
+      table.error("cycles", fmt::format("cycles are rows [amplitude, count] with a whole count, not {}", count));
+  if (stage.factor && !stage.file) table.error("factor", "factor belongs to a file");
+  if (stage.step && stage.steps) table.error("steps", "a stage has either step or steps");
+  if (!arc && stage.arc) table.error("arc", "arc belongs to control = \"arc-length\"");
+  if (!arc && stage.max_points) table.error("max_points", "max_points belongs to control = \"arc-length\"");
 }
 
 void check(TableReader& table, const OutputOptions& output) {

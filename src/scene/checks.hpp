@@ -20,6 +20,7 @@ void check(TableReader& table, const StoryFrameTable& frame);
 void check(TableReader& table, const ContactTable& contact);
 void check(TableReader& table, const MotionTable& motion);
 void check(TableReader& table, const FloorSpectraOptions& spectra);
+void check(TableReader& table, const StageTable& stage);
 void check(TableReader& table, const OutputOptions& output);
 
 }  // namespace nsframe

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/describe_stage.hpp"
 #include "scene/motion_file.hpp"
 
 namespace nsframe {
@@ -95,6 +96,9 @@ void describe_model(Scene& scene, Diagnostics& diagnostics) {
     if (!sides(contact).first.name.empty()) model.contacts.push_back(describe(contact));
   for (const MotionTable& motion : scene.tables.motions)
     if (auto described = describe(motion, scene.directory, diagnostics)) model.motions.push_back(std::move(*described));
+  for (const StageTable& stage : scene.tables.stages)
+    if (auto described = describe(stage, model.stages.size() + 1, scene.directory, diagnostics))
+      model.stages.push_back(std::move(*described));
   if (const auto& gravity = scene.tables.gravity)
     model.gravity = {gravity->acceleration * gravity->direction.vector, gravity->statically_first};
 }

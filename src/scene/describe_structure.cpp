@@ -108,6 +108,7 @@ DampingDescription describe(const DampingTable& damping) {
   out.kind = damping.kind;
   out.mass_factor = damping.mass_factor;
   out.stiffness_factor = damping.stiffness_factor;
+  out.stiffness = damping.stiffness;
   if (damping.kind == DampingKind::modal) {
     out.ratios = damping.ratios.list;
     out.named_ratios = damping.ratios.named;
@@ -126,6 +127,7 @@ DampingTable table(const DampingDescription& damping) {
   out.ratios = {damping.ratios, damping.named_ratios};
   out.mass_factor = damping.mass_factor;
   out.stiffness_factor = damping.stiffness_factor;
+  out.stiffness = damping.stiffness;
   if (damping.frequencies) {
     out.frequencies.assign(damping.frequencies->begin(), damping.frequencies->end());
     out.ratios.list.assign(damping.frequency_ratios.begin(), damping.frequency_ratios.end());

@@ -79,7 +79,7 @@ class Override {
     }
   }
 
-  // Materials, sections, structures and contacts must exist: an override changes them, it doesn't make them.
+  // Materials, sections, structures, contacts and stages must exist: an override changes them, it doesn't make them.
   bool may_create(const toml::table& target, std::size_t depth) const {
     const auto is_named = [](std::string_view k) { return k == "material" || k == "section" || k == "structure"; };
     if (depth == 1 && is_named(path_[0])) {
@@ -87,7 +87,7 @@ class Override {
           place_, fmt::format("there is no {} '{}'{}", path_[0], path_[1], did_you_mean(path_[1], keys(target))));
       return false;
     }
-    if (depth == 0 && (path_[0] == "contact" || is_named(path_[0]))) {
+    if (depth == 0 && (path_[0] == "contact" || path_[0] == "static" || is_named(path_[0]))) {
       diagnostics_.error(place_, fmt::format("the scene has no {}", path_[0]));
       return false;
     }

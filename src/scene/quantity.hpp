@@ -30,6 +30,7 @@ inline constexpr Dimension velocity{1, 0, -1, 0};
 inline constexpr Dimension angular_velocity{0, 0, -1, 1};
 inline constexpr Dimension acceleration{1, 0, -2, 0};
 inline constexpr Dimension force{1, 1, -2, 0};
+inline constexpr Dimension moment{2, 1, -2, 0};
 inline constexpr Dimension stress{-1, 1, -2, 0};
 inline constexpr Dimension stiffness{0, 1, -2, 0};
 inline constexpr Dimension rotational_stiffness{2, 1, -2, -1};

@@ -82,6 +82,8 @@ constexpr std::string_view title_of(const EqualDofTable*) { return "equal DOFs";
 constexpr std::string_view title_of(const SlabTable*) { return "a slab"; }
 constexpr std::string_view title_of(const InitialDisplacement*) { return "an initial displacement"; }
 constexpr std::string_view title_of(const InitialVelocity*) { return "an initial velocity"; }
+constexpr std::string_view title_of(const StageLoadTable*) { return "a load"; }
+constexpr std::string_view title_of(const ControlDofTable*) { return "a control DOF"; }
 constexpr std::string_view title_of(const DampingTable*) { return "damping"; }
 constexpr std::string_view title_of(const FrameColumns*) { return "columns"; }
 constexpr std::string_view title_of(const FrameMembers*) { return "beams"; }
@@ -177,7 +179,7 @@ Pa kPa MPa GPa ksi, %; blanks or `*` multiply, each `/` divides by the one unit 
 `s^-1`. The value column gives the SI unit. Where "one or more" is said, a list of one may be written as its value.
 Names and ids are texts or whole numbers; node and element ids are unique inside a structure, and a node is called
 `structure.node` from outside. `--set key=value` replaces or adds a value, by its dotted key: `--set analysis.dt=1e-4`,
-`--set structure.left.stories=3`; `contact.restitution` and other keys below `contact` and `motion` reach all of them.
+`--set structure.left.stories=3`; `contact.restitution` and other keys below `contact`, `static` and `motion` reach all of them.
 )";
 
 }  // namespace
@@ -186,7 +188,7 @@ std::string scene_reference() {
   std::string out(introduction);
   out +=
       "\nTop level: `title`, `[material.NAME]`, `[section.NAME]`, `[structure.NAME]`, `[[contact]]`, `[gravity]`, "
-      "`[motion]` or `[[motion]]`, `[analysis]`, `[output]`.\n";
+      "`[[static]]`, `[motion]` or `[[motion]]`, `[analysis]`, `[output]`.\n";
   for_each_law([&out](const auto& law) {
     std::string variety;
     if constexpr (requires { law.variety; }) variety = fmt::format(", {}", law.variety);
@@ -200,6 +202,10 @@ std::string scene_reference() {
       "(+x,+y), (-x,+y), 5 the slab's centre, 6 and on the other column lines; floor 0 is the base.");
   out += chapter<ContactTable>("[[contact]]");
   out += chapter<GravityTable>("[gravity]");
+  out += chapter<StageTable>(
+      "[[static]]",
+      "Stages run in their order, after gravity and before the motion; the loads of a finished stage stay. Contacts don't "
+      "act in them. A scene without motion and `analysis.duration` ends with its last stage.");
   out += chapter<MotionTable>("[motion]");
   out += chapter<AnalysisOptions>("[analysis]");
   out += chapter<OutputOptions>("[output]");

@@ -23,6 +23,7 @@ struct SceneTables {
   std::vector<StructureTable> structures;
   std::vector<ContactTable> contacts;
   std::optional<GravityTable> gravity;
+  std::vector<StageTable> stages;
   std::vector<MotionTable> motions;
 };
 

@@ -98,6 +98,58 @@ void visit(Archive& ar, MotionTable& m) {
   ar(Field{"direction", "of the base acceleration"}, m.direction);
 }
 
+template <class Archive>
+void visit(Archive& ar, StageLoadTable& l) {
+  ar(required("node", "`structure.node`"), l.node);
+  ar(required("dof", "ux, uy, uz, rx, ry or rz"), l.dof);
+  ar(required("value", "force, or moment, of load factor 1", l.dimension()), l.value);
+}
+inline constexpr std::string_view stage_load_row[]{"node", "dof", "value"};
+constexpr RowKeys row_keys(const StageLoadTable*) { return stage_load_row; }
+
+template <class Archive>
+void visit(Archive& ar, ControlDofTable& c) {
+  ar(required("node", "`structure.node`"), c.node);
+  ar(required("dof", "ux, uy, uz, rx, ry or rz"), c.dof);
+}
+inline constexpr std::string_view control_dof_row[]{"node", "dof"};
+constexpr RowKeys row_keys(const ControlDofTable*) { return control_dof_row; }
+
+template <class Archive>
+void visit(Archive& ar, StageTable& s) {
+  ar(Field{.key = "name", .text = "of its results", .default_text = "\"stage 1\", by its number"}, s.name);
+  ar(Field{"loads", "forces and moments of load factor 1"}, s.loads);
+  ar(Field{"masses", "a direction: every mass pulled along it by 1 m/s2 at load factor 1"}, s.masses);
+  ar(Field{"mode", "`structure.L1`: masses times this mode's shape, forces of 1 N in all at load factor 1"}, s.mode);
+  ar(Field{"control", "what is led on: `load`, `displacement`, `arc-length`"}, s.control);
+  ar(Field{"at", "control DOF: needed but by `load`, where it is only reported"}, s.control_dof);
+  ar(Field{.key = "to",
+           .text = "one target or several in turn: load factors, or displacements [m, rad] of the control DOF",
+           .dimension = s.dimension(),
+           .default_text = "load: 1"},
+     s.to);
+  ar(Field{"by", "the same, counted from the start of the stage; not by load", s.dimension()}, s.by);
+  ar(Field{"cycles", "rows [amplitude, count]: to +amplitude and -amplitude, count times each", s.dimension()}, s.cycles);
+  ar(Field{"file", "text file of targets, one a line; relative to the scene"}, s.file);
+  ar(Field{.key = "factor", .text = "of the file's numbers, e.g. \"1 mm\"", .dimension = s.dimension(), .default_text = "1"},
+     s.factor);
+  ar(Field{.key = "step",
+           .text = "largest increment; of an arc: what the first one moves the control DOF",
+           .dimension = s.dimension(),
+           .range = range::positive,
+           .default_text = "by `steps`"},
+     s.step);
+  ar(Field{.key = "steps", .text = "increments to each target, in place of `step`", .range = {1, 1e6}, .default_text = "20"}, s.steps);
+  ar(Field{.key = "arc",
+           .text = "arc-length: of displacements and load factor, or of displacements alone",
+           .default_text = "spherical"},
+     s.arc);
+  ar(Field{.key = "max_points", .text = "arc-length: after which the target counts as out of reach", .range = {1, 1e7}, .default_text = "2000"},
+     s.max_points);
+  ar(Field{"tolerance", "residual relative to the largest force", {}, range::positive}, s.tolerance);
+  ar(Field{"max_iterations", "of Newton's method at a point", {}, {1, 1e6}}, s.max_iterations);
+}
+
 // --- analysis, output
 // -------------------------------------------------------------------------------------------------
 
@@ -113,6 +165,10 @@ void visit(Archive& ar, AnalysisOptions& a) {
   ar(Field{"newton_tolerance", "residual relative to the largest force of the step", {}, range::positive},
      a.newton_tolerance);
   ar(Field{"max_newton", "iterations of a step", {}, {1, 1e6}}, a.max_newton);
+  ar(Field{"algorithm",
+           "tried in turn where one fails: `newton`, `modified`, `initial`, `line-search`, `krylov`, `broyden`; `auto`: "
+           "newton, line-search, krylov, initial"},
+     a.algorithm);
   ar(Field{"max_halvings", "of a step whose iterations fail", {}, {0, 60}}, a.max_halvings);
   ar(Field{"contact_solver", "of the contact problem"}, a.contact_solver);
   ar(Field{"contact_tolerance", "complementarity error relative to the approach velocity", {}, range::positive},
@@ -141,7 +197,7 @@ constexpr std::string_view scalar_key(const FloorSpectraOptions*) { return "node
 
 template <class Archive>
 void visit(Archive& ar, OutputOptions& o) {
-  ar(Field{"frames", "rate of ParaView frames; 0: none", dimension::frequency, range::non_negative}, o.frames);
+  ar(Field{"frames", "rate of ParaView frames; 0: none; static stages: every point, in `static/STAGE`", dimension::frequency, range::non_negative}, o.frames);
   ar(Field{"history_rate", "rate of histories; 0: every step", dimension::frequency, range::non_negative},
      o.history_rate);
   ar(Field{"history", "what to keep: `nodes`, `contacts`, `elements`, `sections`, `fibers`, `energy`, `ground`"},

@@ -48,6 +48,14 @@ constexpr auto names_of(ContactKind) {
 constexpr auto names_of(MotionUnit) {
   return Names<MotionUnit, 2>{{{"g", MotionUnit::g}, {"m/s2", MotionUnit::metres}}};
 }
+constexpr auto names_of(ArcKind) {
+  return Names<ArcKind, 2>{{{"spherical", ArcKind::spherical}, {"cylindrical", ArcKind::cylindrical}}};
+}
+constexpr auto names_of(DampingStiffness) {
+  return Names<DampingStiffness, 3>{{{"initial", DampingStiffness::initial},
+                                     {"committed", DampingStiffness::committed},
+                                     {"current", DampingStiffness::current}}};
+}
 constexpr auto names_of(ContactSolverKind) {
   return Names<ContactSolverKind, 2>{
       {{"active-set", ContactSolverKind::active_set}, {"gauss-seidel", ContactSolverKind::gauss_seidel}}};

@@ -24,6 +24,7 @@ void visit(Archive& ar, Scene& s) {
   ar(Field{"structure", "structures: `[structure.NAME]`"}, s.tables.structures);
   ar(Field{"contact", "contacts: `[[contact]]`"}, s.tables.contacts);
   ar(Field{"gravity", "gravity; without this table there is none"}, s.tables.gravity);
+  ar(Field{"static", "static stages before the motion, or without one: `[[static]]`, in their order"}, s.tables.stages);
   ar(Field{"motion", "base motion: `[motion]`, or `[[motion]]` for several"}, s.tables.motions);
   ar(Field{"analysis", "time history"}, s.analysis);
   ar(Field{"output", "what is kept"}, s.output);

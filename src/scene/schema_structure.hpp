@@ -159,6 +159,7 @@ void visit(Archive& ar, DampingTable& d) {
      d.frequencies);
   ar(Field{"mass_factor", "rayleigh", dimension::frequency, range::non_negative}, d.mass_factor);
   ar(Field{"stiffness_factor", "rayleigh", dimension::time, range::non_negative}, d.stiffness_factor);
+  ar(Field{"stiffness", "rayleigh: K at the first rest, at the end of the last step, or of the present iteration"}, d.stiffness);
 }
 
 template <class Archive>

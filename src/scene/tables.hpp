@@ -146,6 +146,7 @@ struct DampingTable {
   std::vector<double> frequencies;  // [Hz] rayleigh, none or two
   double mass_factor = 0;           // [1/s]
   double stiffness_factor = 0;      // [s]
+  DampingStiffness stiffness = DampingStiffness::initial;
 };
 
 struct ExplicitStructure {
@@ -202,6 +203,47 @@ struct GravityTable {
   double acceleration = 9.81;  // [m/s2]
   Direction direction{-Vector3::UnitZ()};
   bool statically_first = true;
+};
+
+// --- static stages
+// ------------------------------------------------------------------------------------------------------
+
+struct StageLoadTable {
+  Reference node;
+  Dof dof = Dof::ux;
+  double value = 0;  // [N] or [N m]
+  Dimension dimension() const { return dof < Dof::rx ? dimension::force : dimension::moment; }
+};
+
+struct ControlDofTable {
+  Reference node;
+  Dof dof = Dof::ux;
+};
+
+struct StageTable {
+  Location at;
+  std::string name;                            // default: "stage 1", by its number
+  std::vector<StageLoadTable> loads;
+  std::optional<Direction> masses;
+  std::optional<Reference> mode;
+  Reference control{"load", {}};
+  std::optional<ControlDofTable> control_dof;  // key `at`
+  std::vector<double> to, by;                  // load factors, [m] or [rad]
+  std::vector<std::array<double, 2>> cycles;   // amplitude, count
+  std::optional<Reference> file;               // of targets
+  std::optional<double> factor;                // of its numbers
+  std::optional<double> step;
+  std::optional<int> steps;
+  std::optional<ArcKind> arc;
+  std::optional<int> max_points;
+  double tolerance = StageOptions{}.tolerance;
+  int max_iterations = StageOptions{}.max_iterations;
+
+  // Of targets and steps.
+  Dimension dimension() const {
+    if (control.name == "load") return dimension::none;
+    return control_dof && control_dof->dof >= Dof::rx ? dimension::angle : dimension::length;
+  }
 };
 
 enum class MotionUnit { g, metres };

@@ -156,15 +156,18 @@ class SceneWriter {
   std::string text_;
 };
 
-// The same file, as seen from `target`.
+// The same files, as seen from `target`.
 void move_files(Scene& scene, const std::filesystem::path& target) {
   if (target.empty()) return;
-  for (MotionTable& motion : scene.tables.motions) {
-    const std::filesystem::path file = std::filesystem::absolute(scene.directory / motion.file.name).lexically_normal();
+  const auto move = [&](Reference& name) {
+    const std::filesystem::path file = std::filesystem::absolute(scene.directory / name.name).lexically_normal();
     const std::filesystem::path relative =
         file.lexically_relative(std::filesystem::absolute(target).lexically_normal());
-    motion.file.name = (relative.empty() ? file : relative).generic_string();
-  }
+    name.name = (relative.empty() ? file : relative).generic_string();
+  };
+  for (MotionTable& motion : scene.tables.motions) move(motion.file);
+  for (StageTable& stage : scene.tables.stages)
+    if (stage.file) move(*stage.file);
 }
 
 }  // namespace

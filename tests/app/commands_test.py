@@ -13,8 +13,26 @@ PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
 BALL = SOURCE / "examples/bouncing_ball/scene.toml"
 PAIR = SOURCE / "examples/two_story_elastic/scene.toml"
+PUSHOVER = SOURCE / "examples/pushover/scene.toml"
 
 # A mass on a yielding spring that one Newton iteration cannot follow once it yields.
+EULER = """
+[section.c]
+E = "210 GPa"
+G = "81 GPa"
+A = 3.142e-3
+Iz = 1.033e-5
+Iy = 1.033e-5
+J = 8e-8
+[structure.c]
+geometry = "p-delta"
+nodes = [[0, 0, 0, 0], [1, 0, 0, 0.625], [2, 0, 0, 1.25], [3, 0, 0, 1.875], [4, 0, 0, 2.5]]
+supports = { 0 = "fixed", 1 = ["uy", "rx", "rz"], 2 = ["uy", "rx", "rz"], 3 = ["uy", "rx", "rz"], 4 = ["uy", "rx", "rz"] }
+masses = { 4 = 1 }
+beams = [[1, 0, 1, "c"], [2, 1, 2, "c"], [3, 2, 3, "c"], [4, 3, 4, "c"]]
+[[static]]
+loads = [["c.4", "uz", "-1 kN"]]
+"""
 STUBBORN = """
 [material.bilinear]
 law = "Steel01"
@@ -31,6 +49,7 @@ initial_velocity = [[1, "ux", "1 m/s"]]
 dt = "1 ms"
 duration = "0.2 s"
 max_newton = 1
+algorithm = "newton"
 newton_tolerance = 1e-12
 max_halvings = 0
 [output]
@@ -156,7 +175,7 @@ class Commands(unittest.TestCase):
 
     def test_a_run_that_does_not_converge_ends_with_3_and_keeps_what_it_has(self):
         done = self.nsframe("run", self.scene(STUBBORN), "-o", "out", code=3)
-        self.assertRegex(done.stderr, r"error: stopped at t = 0\.\d+ s: Newton did not converge at t = .*, largest in element 's\.k'")
+        self.assertRegex(done.stderr, r"error: stopped at t = 0\.\d+ s: the step at t = .* did not converge .*, largest in element 's\.k'")
         self.assertIn("what was computed until then is kept in out", done.stderr)
         summary = self.summary()
         self.assertFalse(summary["completed"])
@@ -273,11 +292,63 @@ class Commands(unittest.TestCase):
         self.assertIn("cannot carry an axial force of -600000 N",
                       self.nsframe("section", scene, "bar", "--axial", "-600000", code=3).stderr)
 
+    def test_a_static_scene_runs_its_stages_and_tells_of_them(self):
+        done = self.nsframe("run", PUSHOVER, "-o", "out", "--set", "output.frames=1")
+        self.assertIn("Static stage 'push' by displacement: 100 points", done.stdout)
+        self.assertNotIn("checkpoint", done.stdout)
+        self.assertFalse((self.folder / "out/checkpoint.h5").exists())
+        stage = self.summary()["stages"][0]
+        self.assertEqual((stage["stage"], stage["at"], stage["completed"]), ("push", "frame.25 ux", True))
+        self.assertAlmostEqual(stage["control_displacement"], 0.25, places=12)
+        self.nsframe("run", "out/scene.toml", "-o", "again", "-q", "--set", "output.frames=0")
+        self.assertEqual(self.summary("again")["stages"], self.summary()["stages"])
+
+    def test_a_stage_that_cannot_go_on_ends_with_3_and_keeps_its_curve(self):
+        text = STUBBORN.replace("initial_velocity = [[1, \"ux\", \"1 m/s\"]]", "").replace("max_newton = 1", "") + \
+            "[[static]]\nname = \"pull\"\nloads = [[\"s.1\", \"ux\", 1]]\nat = [\"s.1\", \"ux\"]\nto = 1e9\nmax_iterations = 1\n"
+        text = text.replace("b = 0.01", "b = -0.01")
+        done = self.nsframe("run", self.scene(text), "-o", "out", code=3)
+        self.assertIn("error: stopped: stage 'pull' cannot go on from load factor", done.stderr)
+        self.assertIn("largest in element 's.k'; tried: newton", done.stderr)
+        self.assertFalse(self.summary()["completed"])
+        self.assertEqual(self.summary()["steps"], 0)
+
+    def test_a_run_after_stages_resumes_with_the_same_numbers(self):
+        text = STUBBORN.replace("initial_velocity = [[1, \"ux\", \"1 m/s\"]]", "").replace("max_newton = 1", "") + \
+            "[[static]]\nloads = [[\"s.1\", \"ux\", 1]]\nto = [900, 100]\n[gravity]\ndirection = \"x\"\nacceleration = 0.1\n"
+        scene = self.scene(text.replace("newton_tolerance = 1e-12", ""))
+        self.nsframe("run", scene, "-o", "whole", "-q")
+        self.nsframe("run", scene, "-o", "parts", "-q", "--set", "analysis.duration=0.1")
+        self.nsframe("run", scene, "-o", "parts", "-q", "--resume")
+        whole, parts = self.summary("whole"), self.summary("parts")
+        self.assertEqual(whole["steps"], 200)
+        for key in set(whole) - {"timing"}:
+            self.assertEqual(whole[key], parts[key], key)
+
+    def test_an_unknown_algorithm_or_control_is_bad_input_by_place(self):
+        done = self.nsframe("run", self.scene(STUBBORN.replace('algorithm = "newton"', 'algorithm = ["newton", "krilov"]')), code=2)
+        self.assertRegex(done.stderr, r"s.toml:\d+:\d+: error: algorithm 'krilov' is not known; did you mean 'krylov'\?")
+        stage = "[[static]]\nmasses = \"x\"\ncontrol = \"displacemnt\"\nat = [\"s.1\", \"ux\"]\nto = 1\n"
+        text = STUBBORN.replace("initial_velocity = [[1, \"ux\", \"1 m/s\"]]", "") + stage
+        done = self.nsframe("run", self.scene(text), code=2)
+        self.assertRegex(done.stderr, r"s.toml:\d+:11: error: control 'displacemnt' is not known; did you mean 'displacement'\?")
+
+    def test_buckling_prints_critical_factors_and_writes_shapes(self):
+        done = self.nsframe("buckling", PUSHOVER)
+        self.assertIn("critical factors of the loads of stage 'push'", done.stdout)
+        scene = self.scene(EULER)
+        modes = json.loads(self.nsframe("buckling", scene, "--json").stdout)
+        # four elements: 1.01291 times Euler's pi^2 EI/(4 L^2), for the load of 1 kN
+        self.assertEqual(modes["modes"][0]["structure"], "c")
+        self.assertAlmostEqual(modes["modes"][0]["load_factor"] / 867.465841582, 1, delta=2e-6)
+        self.nsframe("buckling", scene, "-o", "shapes")
+        self.assertTrue((self.folder / "shapes/frames.pvd").exists())
+
     def test_reference_prints_the_documentation_of_scenes(self):
         self.assertEqual(self.nsframe("reference").stdout, (SOURCE / "docs/scene-reference.md").read_text())
 
     def test_help_fits_a_screen(self):
-        for arguments in ((), ("run",), ("check",), ("modes",), ("export",), ("section",), ("reference",)):
+        for arguments in ((), ("run",), ("check",), ("modes",), ("buckling",), ("export",), ("section",), ("reference",)):
             lines = self.nsframe(*arguments, "--help").stdout.splitlines()
             self.assertLessEqual(len(lines), 40, arguments)
             self.assertGreater(len(lines), 2, arguments)

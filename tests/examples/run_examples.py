@@ -21,6 +21,8 @@ import xml.etree.ElementTree
 def name_of(element):
     if "node" in element:
         return element["node"]
+    if "stage" in element:
+        return element["stage"]
     if "story" in element:
         return f"{element['structure']}.{element['story']}"
     return f"{element.get('structure')}.{element.get('mode')}"

@@ -50,7 +50,8 @@ inline std::string dump(const SpringDescription& s) {
 
 inline std::string dump(const DampingDescription& d) {
   std::string out = fmt::format("damping {} {} {} {} {}", int(d.kind), numbers(d.ratios), d.mass_factor,
-                                d.stiffness_factor, d.frequencies ? numbers(*d.frequencies) : "");
+                                d.stiffness_factor, d.frequencies ? numbers(*d.frequencies) : "") +
+         fmt::format("stiffness {}\n", int(d.stiffness));
   for (const auto& [mode, ratio] : d.named_ratios) out += fmt::format(" {} = {}", mode.name, ratio);
   return out + numbers(d.frequency_ratios) + "\n";
 }
@@ -83,6 +84,13 @@ inline std::string dump(const ModelDescription& m) {
   for (const auto& c : m.contacts)
     out += fmt::format("contact {} {} {} {} {} gap {} e {}\n", c.name, int(c.kind), c.a.name, name(c.b),
                        numbers(c.direction), numbers(c.gap), c.restitution);
+  for (const auto& s : m.stages) {
+    out += fmt::format("stage {} {} {} {} {} targets {} {} {} {} {} {}\n", s.name, s.options.control, name(s.mode),
+                       name(s.control_node), s.control_dof, fmt::join(s.options.targets, " "), s.options.relative, s.options.step,
+                       s.options.steps, int(s.options.arc), s.options.max_points);
+    for (const auto& load : s.loads) out += fmt::format("load {} {} {}\n", load.node.name, load.dof, load.value);
+    if (s.masses) out += fmt::format("masses {}\n", numbers(*s.masses));
+  }
   for (const auto& g : m.motions)
     out += fmt::format("motion {} {} {} {}\n", g.source, g.dt, numbers(g.direction), numbers(g.acceleration));
   return out + fmt::format("gravity {} {}\n", numbers(m.gravity.acceleration), m.gravity.statically_first);

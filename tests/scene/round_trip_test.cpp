@@ -10,7 +10,7 @@ using test::scene;
 
 namespace {
 
-constexpr const char* examples[] = {"two_story", "two_story_elastic", "bouncing_ball", "pull_back", "plane_frame"};
+constexpr const char* examples[] = {"two_story", "two_story_elastic", "bouncing_ball", "pull_back", "plane_frame", "pushover"};
 
 Scene example(const std::string& name) {
   Diagnostics diagnostics;

@@ -1,0 +1,100 @@
+#include "integrators/algorithms.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "base/diagnostics.hpp"
+#include "base/errors.hpp"
+
+namespace nsframe {
+
+namespace {
+
+const std::map<std::string, std::function<std::unique_ptr<Algorithm>()>>& registry() {
+  static const std::map<std::string, std::function<std::unique_ptr<Algorithm>()>> algorithms{
+      {"newton", make_newton},
+      {"modified", [] { return make_modified_newton(Tangent::current); }},
+      {"initial", [] { return make_modified_newton(Tangent::initial); }},
+      {"line-search", make_line_search},
+      {"krylov", make_krylov},
+      {"broyden", make_broyden},
+  };
+  return algorithms;
+}
+
+}  // namespace
+
+std::vector<std::string> algorithm_names() {
+  std::vector<std::string> names;
+  for (const auto& entry : registry()) names.push_back(entry.first);
+  return names;
+}
+
+std::vector<std::string> algorithm_choices() {
+  std::vector<std::string> names = algorithm_names();
+  names.insert(names.begin(), "auto");
+  return names;
+}
+
+std::unique_ptr<Algorithm> make_algorithm(const std::string& name) {
+  const auto found = registry().find(name);
+  if (found == registry().end()) {
+    throw InputError(fmt::format("error: algorithm '{}' is not known{}", name, did_you_mean(name, algorithm_names())));
+  }
+  return found->second();
+}
+
+Ladder::Ladder(const std::vector<std::string>& choice) {
+  const bool automatic = choice.empty() || choice == std::vector<std::string>{"auto"};
+  for (const std::string& name : automatic ? std::vector<std::string>{"newton", "line-search", "krylov", "initial"} : choice) {
+    rungs_.push_back({name, make_algorithm(name)});
+  }
+}
+
+namespace {
+
+// One algorithm from the first guess; false when it does not converge.
+bool run(NonlinearStep& step, Algorithm& algorithm, int most, Attempt& attempt) {
+  try {
+    step.restart();
+    algorithm.start();
+    do {
+      if (attempt.iterations >= most) return false;
+      ++attempt.iterations;
+      algorithm.iterate(step);
+      attempt.error = step.error();
+      if (!std::isfinite(attempt.error)) return false;
+    } while (attempt.error > 1);
+  } catch (const ConvergenceError& problem) {
+    attempt.reason = problem.what();
+    return false;
+  }
+  attempt.converged = true;
+  return true;
+}
+
+}  // namespace
+
+bool Ladder::climb(NonlinearStep& step, int max_iterations, std::vector<Attempt>& attempts) {
+  attempts.clear();
+  for (const Rung& rung : rungs_) {
+    Attempt& attempt = attempts.emplace_back();
+    attempt.algorithm = rung.name;
+    if (run(step, *rung.algorithm, max_iterations * rung.algorithm->patience(), attempt)) return true;
+  }
+  return false;
+}
+
+std::string tried(const std::vector<Attempt>& attempts) {
+  std::string text;
+  for (const Attempt& attempt : attempts) {
+    text += fmt::format("{}{} ({} iteration{}{})", text.empty() ? "" : ", ", attempt.algorithm, attempt.iterations,
+                        attempt.iterations == 1 ? "" : "s", attempt.reason.empty() ? "" : ": " + attempt.reason);
+  }
+  return text;
+}
+
+}  // namespace nsframe

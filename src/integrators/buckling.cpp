@@ -1,0 +1,124 @@
+#include "integrators/buckling.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Spectra/GenEigsSolver.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/errors.hpp"
+
+namespace nsframe {
+
+namespace {
+
+constexpr int dense_limit = 300;          // free DOFs up to which all eigenvalues are found at once
+constexpr double relative_change = 1e-4;  // of the displacements for the derivative, to the size of the model
+constexpr double least_share = 1e-7;      // of the largest 1 / load factor, below which one is rounding
+
+// Largest extent of the model [m].
+double extent(const Model& model) {
+  Vector3 low = Vector3::Constant(1e300), high = -low;
+  for (const Vector3& place : model.nodes.position) {
+    low = low.cwiseMin(place);
+    high = high.cwiseMax(place);
+  }
+  return std::max((high - low).maxCoeff(), 1e-3);
+}
+
+SparseMatrix tangent_at(System& system, const State& state, const VectorX& displacement) {
+  VectorX history = state.history, force;
+  system.assembler.start_step(state.history, history);
+  system.assembler.internal_force(displacement, state.history, history, force);
+  return system.assembler.tangent();
+}
+
+// x = -K^-1 K_g x, for Spectra.
+class Operator {
+ public:
+  using Scalar = double;
+  Operator(const SparseMatrix& geometric, const Eigen::SparseLU<SparseMatrix>& factor) : geometric_(geometric), factor_(factor) {}
+  Eigen::Index rows() const { return geometric_.rows(); }
+  Eigen::Index cols() const { return geometric_.cols(); }
+  void perform_op(const double* in, double* out) const {
+    const VectorX x = geometric_ * Eigen::Map<const VectorX>(in, rows());
+    Eigen::Map<VectorX>(out, rows()) = -factor_.solve(x);
+  }
+
+ private:
+  const SparseMatrix& geometric_;
+  const Eigen::SparseLU<SparseMatrix>& factor_;
+};
+
+struct Pairs {
+  Eigen::VectorXcd values;   // 1 / load factor
+  Eigen::MatrixXcd vectors;
+};
+
+Pairs eigenpairs(const SparseMatrix& K, const SparseMatrix& geometric, const Eigen::SparseLU<SparseMatrix>& factor, int count) {
+  const int n = static_cast<int>(K.rows());
+  if (n <= dense_limit) {
+    const MatrixX A = -factor.solve(MatrixX(geometric));
+    const Eigen::EigenSolver<MatrixX> solver(A);
+    if (solver.info() != Eigen::Success) throw ConvergenceError("the eigenvalues of buckling did not converge");
+    return {solver.eigenvalues(), solver.eigenvectors()};
+  }
+  Operator A(geometric, factor);
+  const int wanted = std::min(2 * count + 4, n - 2);
+  Spectra::GenEigsSolver<Operator> solver(A, wanted, std::min(n, 4 * wanted + 20));
+  solver.init();
+  solver.compute(Spectra::SortRule::LargestReal, 2000, 1e-10);
+  if (solver.info() != Spectra::CompInfo::Successful) throw ConvergenceError("the eigenvalues of buckling did not converge");
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+// Eigenvalues of a stable tangent have positive real parts.
+void require_stability(const SparseMatrix& K, bool symmetric) {
+  bool stable = true;
+  if (symmetric) {
+    const Eigen::SimplicialLDLT<SparseMatrix> factor(K);
+    stable = factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0;
+  } else if (K.rows() <= dense_limit) {
+    stable = MatrixX(K).eigenvalues().real().minCoeff() > 0;
+  }
+  if (!stable) throw ConvergenceError("the structure is not stable under the constant loads: there is no load factor to add");
+}
+
+}  // namespace
+
+std::vector<BucklingMode> buckling_modes(System& system, const State& state, const VectorX& pattern, int count) {
+  const SparseMatrix K = tangent_at(system, state, state.displacement);
+  require_stability(K, system.assembler.symmetric());
+  Eigen::SparseLU<SparseMatrix> factor(K);
+  if (factor.info() != Eigen::Success) throw ConvergenceError("the stiffness is singular under the constant loads");
+  const VectorX response = factor.solve(pattern);
+  const double size = response.lpNorm<Eigen::Infinity>();
+  if (!(size > 0)) return {};
+  const double change = relative_change * extent(system.model) / size;
+  SparseMatrix geometric = tangent_at(system, state, state.displacement + change * response);
+  geometric -= tangent_at(system, state, state.displacement - change * response);
+  geometric *= 1 / (2 * change);
+  const Pairs pairs = eigenpairs(K, geometric, factor, count);
+  const double largest = pairs.values.cwiseAbs().maxCoeff();
+  std::vector<BucklingMode> modes;
+  for (Eigen::Index i = 0; i < pairs.values.size(); ++i) {
+    const std::complex<double> value = pairs.values[i];
+    if (!(value.real() > least_share * largest) || std::abs(value.imag()) > 1e-8 * std::abs(value)) continue;
+    // the vector of a real eigenvalue is real but for a factor
+    Eigen::Index largest_entry = 0;
+    pairs.vectors.col(i).cwiseAbs().maxCoeff(&largest_entry);
+    BucklingMode mode{1 / value.real(), (pairs.vectors.col(i) / pairs.vectors(largest_entry, i)).real()};
+    const VectorX full = system.model.dofs.expand(mode.shape);
+    double translation = 0;
+    for (int node = 0; node < system.model.nodes.size(); ++node) {
+      translation = std::max(translation, full.segment<3>(6 * node).lpNorm<Eigen::Infinity>());
+    }
+    if (translation > 0) mode.shape /= translation;
+    modes.push_back(std::move(mode));
+  }
+  std::sort(modes.begin(), modes.end(), [](const auto& a, const auto& b) { return a.load_factor < b.load_factor; });
+  if (modes.size() > static_cast<std::size_t>(count)) modes.resize(static_cast<std::size_t>(count));
+  return modes;
+}
+
+}  // namespace nsframe

@@ -1,0 +1,30 @@
+// One step of a nonlinear problem R(x) = 0, static or in time, as the solution algorithms see it.
+//
+// An algorithm commands changes of x; the step applies them and evaluates anew. Where contact takes part, `move` projects
+// onto the contact law with the factors in use, so that x and the impulses obey it at every iterate whatever the
+// algorithm commands; R includes the impulses, and changes with the commanded change as without contact (theory.md, 90).
+#pragma once
+
+#include "base/types.hpp"
+
+namespace nsframe {
+
+enum class Tangent { current, initial };
+
+class NonlinearStep {
+ public:
+  virtual ~NonlinearStep() = default;
+
+  virtual void restart() = 0;                     // x at its first guess, R evaluated there
+  virtual const VectorX& residual() const = 0;    // R
+  virtual double error() const = 0;               // of R over what is tolerated: at most 1 when converged
+  virtual void factor(Tangent which) = 0;         // J = dR/dx at x, or from the initial stiffness
+  virtual void solve(const VectorX& rhs, VectorX& x) = 0;  // x = J^-1 rhs
+  virtual void move(const VectorX& change) = 0;   // x += change, R evaluated there
+
+  // Factors of an earlier step may serve; and the reduction of R by an iteration above which they no longer do.
+  virtual bool has_factors() const { return false; }
+  virtual double slow_reduction() const { return 0; }
+};
+
+}  // namespace nsframe

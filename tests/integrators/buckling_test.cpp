@@ -1,0 +1,141 @@
+// Linear buckling against closed forms and OpenSees' P-Delta loads (tests/integrators/static_test.cpp has their origin).
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "integrators/buckling.hpp"
+#include "integrators/static_analysis.hpp"
+#include "tests/integrators/oscillators.hpp"
+
+using namespace nsframe;
+using namespace nsframe::test;
+
+namespace {
+
+constexpr double height = 2.5, E = 210e9, I = 1.033e-5;  // [m], [Pa], [m4]
+// OpenSees' P-Delta cantilever, critical load over Euler's, by the number of elements
+constexpr std::pair<int, double> opensees[] = {{1, 1.21585301635}, {2, 1.05238622781}, {4, 1.0129150629}, {8, 1.0032166167}, {16, 1.0008027518}};
+
+enum class End { free, guided, pinned, fixed };
+
+// A column in the x-z plane, fixed or pinned at its foot.
+ModelDescription column(int elements, End foot, End head) {
+  ModelDescription d;
+  d.sections = {elastic_section("c", {E, 81e9, 3.142e-3, I, I, 8e-8})};
+  StructureDescription s;
+  s.name = "a";
+  for (int i = 0; i <= elements; ++i) s.nodes.push_back(node(std::to_string(i), 0, 0, height * i / elements));
+  const bool foot_turns = foot == End::pinned;
+  s.supports = {fixed("0", {true, true, true, true, !foot_turns, true})};
+  for (int i = 0; i < elements; ++i) {
+    s.elements.push_back(beam(std::to_string(i), std::to_string(i), std::to_string(i + 1), "c"));
+    s.elements.back().geometry = Geometry::p_delta;
+    const bool last = i + 1 == elements;
+    const bool held = last && (head == End::pinned || head == End::fixed), clamped = last && (head == End::guided || head == End::fixed);
+    s.supports.push_back(fixed(std::to_string(i + 1), {held, true, false, true, clamped, true}));
+  }
+  d.structures = {s};
+  return d;
+}
+
+double critical(const ModelDescription& d, const std::string& top) {
+  const Model model = build(d);
+  System system(model, 1);
+  VectorX load = VectorX::Zero(model.dofs.full);
+  load[full_dof(model, top, 2)] = -1;
+  return buckling_modes(system, virgin_state(system), model.dofs.transformation_transposed * load, 1).at(0).load_factor;
+}
+
+}  // namespace
+
+TEST_CASE("the critical load of a cantilever is OpenSees' for every number of elements") {
+  const double euler = pi * pi * E * I / (4 * height * height);
+  for (const auto& [elements, ratio] : opensees) {
+    CAPTURE(elements);
+    CHECK(critical(column(elements, End::fixed, End::free), "a." + std::to_string(elements)) / euler ==
+          doctest::Approx(ratio).epsilon(2e-6));  // OpenSees' loads were bisected to 1e-6
+  }
+}
+
+TEST_CASE("columns that are two or four cantilevers have their critical loads") {
+  const double unit = pi * pi * E * I / (height * height);
+  // effective lengths L, L and L/2, made of two, two and four cantilevers
+  CHECK(critical(column(8, End::pinned, End::pinned), "a.8") / unit == doctest::Approx(1.0129150629).epsilon(2e-6));
+  CHECK(critical(column(8, End::fixed, End::guided), "a.8") / unit == doctest::Approx(1.0129150629).epsilon(2e-6));
+  CHECK(critical(column(16, End::fixed, End::fixed), "a.16") / (4 * unit) == doctest::Approx(1.0129150629).epsilon(2e-6));
+}
+
+TEST_CASE("the critical load of a fixed and pinned column tends to 20.19 EI/L^2 at second order") {
+  const double root = 4.493409457909064;  // tan x = x
+  const double exact = root * root * E * I / (height * height);
+  const double coarse = critical(column(8, End::fixed, End::pinned), "a.8") / exact - 1;
+  const double fine = critical(column(16, End::fixed, End::pinned), "a.16") / exact - 1;
+  CHECK(fine > 0);
+  CHECK(fine < 0.01);
+  CHECK(std::log2(coarse / fine) == doctest::Approx(2).epsilon(0.03));
+}
+
+TEST_CASE("a portal with a rigid beam sways at the load of its guided columns, one with hinged feet at a quarter") {
+  for (const bool hinged : {false, true}) {
+    ModelDescription d = column(8, hinged ? End::pinned : End::fixed, End::free);
+    // columns so stiff along their axis that the beam doesn't turn
+    d.sections = {elastic_section("c", {E, 81e9, 3.142, I, I, 8e-8})};
+    d.sections.push_back(elastic_section("rigid", {E, 81e9, 3.142, 1e6 * I, 1e6 * I, 8e-8}));
+    StructureDescription& s = d.structures[0];
+    const auto elements = s.elements;
+    const auto supports = s.supports;
+    for (int i = 0; i <= 8; ++i) s.nodes.push_back(node("r" + std::to_string(i), 4, 0, height * i / 8));
+    for (ElementDescription e : elements) {
+      e.id = "r" + e.id;
+      e.node_i.name = "r" + e.node_i.name;
+      e.node_j.name = "r" + e.node_j.name;
+      s.elements.push_back(e);
+    }
+    for (SupportDescription support : supports) {
+      support.node.name = "r" + support.node.name;
+      s.supports.push_back(support);
+    }
+    s.elements.push_back(beam("top", "8", "r8", "rigid"));
+    const Model model = build(d);
+    System system(model, 1);
+    VectorX load = VectorX::Zero(model.dofs.full);
+    load[full_dof(model, "a.8", 2)] = load[full_dof(model, "a.r8", 2)] = -1;
+    const auto modes = buckling_modes(system, virgin_state(system), model.dofs.transformation_transposed * load, 2);
+    const double euler = pi * pi * E * I / (height * height) * (hinged ? 0.25 : 1);
+    // a guided column of eight elements is two cantilevers of four; a hinged one is a cantilever of eight.
+    REQUIRE_FALSE(modes.empty());
+    CHECK(modes[0].load_factor / euler == doctest::Approx(hinged ? 1.0032166167 : 1.0129150629).epsilon(2e-5));
+    const VectorX full = model.dofs.expand(modes[0].shape);
+    CHECK(std::abs(full[full_dof(model, "a.8", 0)]) == doctest::Approx(1).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("constant loads take their part of the critical load") {
+  const Model model = build(column(4, End::fixed, End::free));
+  System system(model, 1);
+  VectorX load = VectorX::Zero(model.dofs.full);
+  load[full_dof(model, "a.4", 2)] = -1;
+  const VectorX pattern = model.dofs.transformation_transposed * load;
+  const double whole = buckling_modes(system, virgin_state(system), pattern, 1).at(0).load_factor;
+  State state = virgin_state(system);
+  solve_static(system, 0.4 * whole * pattern, {}, state);
+  CHECK(buckling_modes(system, state, pattern, 1).at(0).load_factor == doctest::Approx(0.6 * whole).epsilon(1e-6));
+  State beyond = virgin_state(system);
+  solve_static(system, 1.2 * whole * pattern, {}, beyond);
+  CHECK_THROWS_WITH_AS(buckling_modes(system, beyond, pattern, 1), doctest::Contains("not stable under the constant loads"), ConvergenceError);
+}
+
+TEST_CASE("tension and linear geometry have no critical load") {
+  const auto modes_of = [](Geometry geometry, double force) {
+    ModelDescription d = column(4, End::fixed, End::free);
+    for (ElementDescription& e : d.structures[0].elements) e.geometry = geometry;
+    const Model model = build(d);
+    System system(model, 1);
+    VectorX load = VectorX::Zero(model.dofs.full);
+    load[full_dof(model, "a.4", 2)] = force;
+    return buckling_modes(system, virgin_state(system), model.dofs.transformation_transposed * load, 3);
+  };
+  CHECK(modes_of(Geometry::p_delta, 1).empty());
+  CHECK(modes_of(Geometry::linear, -1).empty());
+}

@@ -1,0 +1,204 @@
+// Static stages: arc length past limit points against closed forms, plastic limit loads, cycles, the ladder, errors.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "integrators/static_stage.hpp"
+#include "tests/integrators/oscillators.hpp"
+
+using namespace nsframe;
+using namespace nsframe::test;
+
+namespace {
+
+class Curve : public StageObserver {
+ public:
+  void point(const StagePoint& point, const State& state) override {
+    points.push_back(point);
+    states.push_back(state);
+  }
+  std::vector<StagePoint> points;
+  std::vector<State> states;
+};
+
+constexpr double E = 1e5, yield = 1000, b = -0.1, k = 2e4;  // [N/m], [N], [-], [N/m]
+
+// A softening spring from the ground to node 1, an elastic one on to node 2, both along x.
+ModelDescription softening_chain() {
+  ModelDescription d = nonlinear_oscillator(1, Steel01{yield, E, b});
+  StructureDescription& s = d.structures[0];
+  s.nodes.push_back(node("2", 0, 0, 0));
+  s.supports.push_back(fixed("2", {false, true, true, true, true, true}));
+  SpringDescription elastic = ground_spring("e", "1", k * Vector6::Unit(0));
+  elastic.node_j = Reference{"2", {}};
+  s.springs.push_back(elastic);
+  StageDescription stage;
+  stage.name = "push";
+  stage.at = at(20);
+  stage.loads = {{{"s.2", {}}, 0, 100}};
+  stage.control_node = Reference{"s.1", {}};
+  stage.options.control = "arc-length";
+  stage.options.targets = {0.2};
+  stage.options.step = 1e-4;
+  d.stages = {stage};
+  return d;
+}
+
+double softening_force(double u) { return u < yield / E ? E * u : yield + b * E * (u - yield / E); }
+
+}  // namespace
+
+TEST_CASE("the arc length follows a softening chain past its limit point, on the closed form") {
+  for (const ArcKind arc : {ArcKind::spherical, ArcKind::cylindrical}) {
+    ModelDescription d = softening_chain();
+    d.stages[0].options.arc = arc;
+    const Model model = build(d);
+    Simulation simulation(model, options(1, 1e-3, 1));
+    Curve curve;
+    std::vector<StageResult> results;
+    REQUIRE_MESSAGE(simulation.run_stages(1, {{"newton"}, {&curve}, {}}, results), results.back().stop_reason);
+    double largest = 0;
+    for (std::size_t i = 0; i < curve.points.size(); ++i) {
+      const double force = 100 * curve.points[i].load_factor, u = curve.states[i].displacement[0];
+      CHECK(force == doctest::Approx(softening_force(u)).epsilon(1e-8));
+      CHECK(curve.states[i].displacement[1] == doctest::Approx(u + force / k).epsilon(1e-8));
+      largest = std::max(largest, force);
+    }
+    CHECK(largest > 0.9 * yield);
+    CHECK(curve.states.back().displacement[0] == doctest::Approx(0.2).epsilon(1e-9));
+    CHECK(results[0].points.back().load_factor < 0);
+  }
+}
+
+TEST_CASE("load control cannot pass the limit point, and says where it stopped and what was tried") {
+  ModelDescription d = softening_chain();
+  d.stages[0].options.control = "load";
+  d.stages[0].options.targets = {11};
+  d.stages[0].options.step = 1;
+  const Model model = build(d);
+  Simulation simulation(model, options(1, 1e-3, 1));
+  const Summary summary = simulation.run({});
+  CHECK_FALSE(summary.completed);
+  CHECK(summary.steps == 0);
+  REQUIRE(summary.stages.size() == 1);
+  CHECK(summary.stages[0].points.back().load_factor == doctest::Approx(10).epsilon(1e-3));
+  CHECK(summary.stop_reason.starts_with("stage 'push' cannot go on from load factor"));
+  CHECK(summary.stop_reason.find("s.1 ux = 0.0") != std::string::npos);
+  CHECK(summary.stop_reason.find("tried: newton (") != std::string::npos);
+  CHECK(summary.stages[0].ladder.size() > 3);
+}
+
+TEST_CASE("arc length with a target behind a path that never gets there gives up after its points") {
+  ModelDescription d = softening_chain();
+  d.stages[0].control_node = Reference{"s.2", {}};
+  d.stages[0].options.targets = {0.3};
+  d.stages[0].options.step = 5e-3;
+  d.stages[0].options.max_points = 40;
+  const Model model = build(d);
+  Simulation simulation(model, options(1, 1e-3, 1));
+  const Summary summary = simulation.run({});
+  CHECK_FALSE(summary.completed);
+  CHECK(summary.stop_reason.find("the target is not reached after 40 points") != std::string::npos);
+}
+
+TEST_CASE("loads of earlier stages stay, and the time history begins under all of them") {
+  ModelDescription d = linear_oscillator(100, 1e4, 0);
+  d.gravity.acceleration = Vector3(1, 0, 0);  // 100 N
+  StageDescription first, second;
+  first.name = "first";
+  first.loads = {{{"s.1", {}}, 0, 50}};
+  first.options.targets = {1, 2};
+  first.options.steps = 1;
+  second.name = "second";
+  second.masses = Vector3(1, 0, 0);
+  second.control_node = Reference{"s.1", {}};
+  second.options = {"displacement", {}, {0.05}};
+  second.options.steps = 1;
+  d.stages = {first, second};
+  const Model model = build(d);
+  Simulation simulation(model, options(0.5, 1e-3, 0.1));
+  const Summary summary = simulation.run({});
+  REQUIRE(summary.completed);
+  CHECK(summary.stages[0].points.size() == 3);
+  CHECK(summary.stages[0].points[2].load_factor == 2);
+  CHECK(summary.stages[1].points[0].displacement == doctest::Approx((100 + 100) / 1e4).epsilon(1e-9));
+  CHECK(summary.stages[1].points[1].load_factor == doctest::Approx((1e4 * 0.05 - 200) / 100).epsilon(1e-9));
+  CHECK(summary.steps == 100);
+  CHECK(simulation.state().displacement[0] == doctest::Approx(0.05).epsilon(1e-9));  // at rest under all loads
+  CHECK(std::abs(simulation.state().velocity[0]) < 1e-9);
+}
+
+TEST_CASE("cycles of an elastoplastic spring enclose the work of plasticity") {
+  ModelDescription d = nonlinear_oscillator(1, ElasticPP{1e5, 0.01});
+  StageDescription stage;
+  stage.name = "cycles";
+  stage.loads = {{{"s.1", {}}, 0, 1}};
+  stage.control_node = Reference{"s.1", {}};
+  stage.options.control = "displacement";
+  stage.options.targets = {0.03, -0.03, 0.03, -0.03};
+  stage.options.step = 1e-3;
+  d.stages = {stage};
+  const Model model = build(d);
+  Simulation simulation(model, options(1, 1e-3, 0));
+  const Summary summary = simulation.run({});
+  REQUIRE_MESSAGE(summary.completed, summary.stop_reason);
+  const auto& points = summary.stages[0].points;
+  REQUIRE(points.size() == 1 + 30 + 3 * 60);
+  double work = 0;
+  for (std::size_t i = 31; i <= 150; ++i) {  // one full cycle
+    work += 0.5 * (points[i].load_factor + points[i - 1].load_factor) * (points[i].displacement - points[i - 1].displacement);
+  }
+  CHECK(work == doctest::Approx(4 * 1000 * (0.03 - 0.01)).epsilon(1e-9));  // the kinks lie on points
+}
+
+TEST_CASE("a mode-proportional load is M phi along its direction, in all 1 N") {
+  ModelDescription d = softening_chain();
+  d.structures[0].masses.push_back(mass("2", 3));
+  d.stages[0].loads.clear();
+  d.stages[0].mode = Reference{"s.L1", {}};
+  const Model model = build(d);
+  Simulation simulation(model, options(1, 1e-3, 1));
+  const VectorX& pattern = simulation.stages()[0].pattern;
+  const VectorX inertia = model.mass * simulation.modes()[0].modes.shape.col(0);
+  CHECK(pattern.lpNorm<1>() == doctest::Approx(1).epsilon(1e-12));
+  CHECK(pattern.sum() > 0);
+  CHECK(std::abs(pattern[0] * inertia[1] - pattern[1] * inertia[0]) < 1e-12 * inertia.norm());
+}
+
+TEST_CASE("stages that cannot be are errors by place") {
+  ModelDescription d = softening_chain();
+  d.stages[0].loads[0].node = {"s.9", at(21)};
+  CHECK(error_of(d).starts_with("s.toml:21:3: error: there is no node 's.9'; did you mean"));
+  d = softening_chain();
+  d.stages[0].loads[0] = {{"s.2", at(21)}, 1, 100};
+  CHECK(error_of(d) == "s.toml:21:3: error: uy of node 's.2' is held: a load there does nothing");
+  d = softening_chain();
+  d.stages[0].control_node->at = at(22);
+  d.stages[0].control_dof = 2;
+  CHECK(error_of(d) == "s.toml:22:3: error: uz of node 's.1' is held: it cannot be the control displacement");
+  d = softening_chain();
+  d.stages[0].loads.clear();
+  d.stages[0].mode = Reference{"t.L1", at(23)};
+  CHECK(error_of(d) == "s.toml:23:3: error: mode = \"t.L1\": there is no structure 't'; known: s");
+  const auto of_run = [](const ModelDescription& description) -> std::string {
+    try {
+      const Model model = build(description);
+      Simulation simulation(model, options(1, 1e-3, 1));
+    } catch (const InputError& problem) {
+      return problem.what();
+    }
+    return "no error";
+  };
+  d.stages[0].mode = Reference{"s.T1", at(23)};
+  CHECK(of_run(d).starts_with("s.toml:23:3: error: structure 's' has no mode 'T1'"));
+  d = softening_chain();
+  d.stages[0].options.control = "arclength";
+  d.stages[0].options.control_at = at(24);
+  CHECK(of_run(d) == "s.toml:24:3: error: control 'arclength' is not known; did you mean 'arc-length'?");
+  d = softening_chain();
+  d.stages[0].options.targets = {0.1, 0.2};
+  CHECK(of_run(d) == "s.toml:20:3: error: stage 'push': control by arc-length has one target, not 2");
+  d = softening_chain();
+  d.structures[0].initial_displacements = {{{"1", {}}, 0, 0.1}};
+  CHECK(of_run(d).find("initial displacements cannot be given beside them") != std::string::npos);
+}
