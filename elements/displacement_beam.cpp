@@ -10,17 +10,16 @@ Matrix3x5 DisplacementBeams::strain_interpolation(double x, double L) {
   return B;
 }
 
-void DisplacementBeams::initialize_history(int element, double* history) const {
+void DisplacementBeams::initialize_basic(int element, double* history) const {
   for (int i = 0; i < points(); ++i) {
     nsframe::initialize_history(*element_at(element).section, section_history(element, history, i));
   }
 }
 
-void DisplacementBeams::respond(int element, const Vector12& displacement, const double* committed, double* trial,
-                                Vector12& force, Matrix12* tangent) const {
+void DisplacementBeams::respond_basic(int element, const Vector6& v, double, const double* committed, double* trial,
+                                      Vector6& force, Matrix6& tangent) const {
   const Element& e = element_at(element);
-  const double L = e.frame.length;
-  const Vector6 v = e.frame.compatibility * displacement;
+  const double L = e.length;
   Vector5 q = Vector5::Zero();
   Matrix5 k = Matrix5::Zero();
   for (int i = 0; i < points(); ++i) {
@@ -32,18 +31,14 @@ void DisplacementBeams::respond(int element, const Vector12& displacement, const
     k += rule_.weight[at] * L * (B.transpose() * response.tangent * B);
   }
   const double torsion = e.section->torsion_stiffness / L;
-  Vector6 basic_force;
-  basic_force << q, torsion * v[5];
-  to_global(e.frame, p_delta_, displacement, basic_force, with_torsion(k, torsion), force, tangent);
+  force << q, torsion * v[5];
+  tangent = with_torsion(k, torsion);
 }
 
-std::vector<SectionResult> DisplacementBeams::sections(int element, const Vector12& displacement,
-                                                       const double* history) const {
-  const Element& e = element_at(element);
-  const Vector6 v = e.frame.compatibility * displacement;
+std::vector<SectionResult> DisplacementBeams::basic_sections(int element, const Vector6& v, const double* history) const {
   std::vector<SectionResult> results;
   for (int i = 0; i < points(); ++i) {
-    const Matrix3x5 B = strain_interpolation(rule_.position[static_cast<std::size_t>(i)], e.frame.length);
+    const Matrix3x5 B = strain_interpolation(rule_.position[static_cast<std::size_t>(i)], element_at(element).length);
     results.push_back(section_result(element, i, B * v.head<5>(), history));
   }
   return results;

@@ -13,27 +13,28 @@ Matrix6 elastic_basic_stiffness(const ElasticSection& s, double L) {
   return k;
 }
 
+ElasticBeams::ElasticBeams(Geometry geometry)
+    : Members(beam_geometry(geometry)), kind_("elastic_beam" + std::string(this->geometry().suffix())) {}
+
 void ElasticBeams::add(const ElementNodes& nodes, std::string id, const BeamFrame& frame, const ElasticSection& section,
                        SectionOutline outline) {
-  ElementGroup::add(nodes, std::move(id));
-  elements_.push_back({frame, elastic_basic_stiffness(section, frame.length), section, std::move(outline)});
+  Members::add(nodes, std::move(id), frame, 0);
+  elements_.push_back({elastic_basic_stiffness(section, frame.length), section, std::move(outline)});
 }
 
-void ElasticBeams::respond(int element, const Vector12& displacement, const double*, double*, Vector12& force,
-                           Matrix12* tangent) const {
-  const Element& e = elements_[static_cast<std::size_t>(element)];
-  const Vector6 basic_force = e.stiffness * (e.frame.compatibility * displacement);
-  to_global(e.frame, p_delta_, displacement, basic_force, e.stiffness, force, tangent);
+void ElasticBeams::respond_basic(int element, const Vector6& deformation, double, const double*, double*, Vector6& force,
+                                 Matrix6& tangent) const {
+  tangent = elements_[static_cast<std::size_t>(element)].stiffness;
+  force.noalias() = tangent * deformation;
 }
 
 ElementShape ElasticBeams::shape(int element) const {
-  const Element& e = elements_[static_cast<std::size_t>(element)];
-  return {true, e.frame.axes, e.frame.length, &e.outline};
+  return member_shape(element, &elements_[static_cast<std::size_t>(element)].outline);
 }
 
-std::vector<SectionResult> ElasticBeams::sections(int element, const Vector12& displacement, const double*) const {
+std::vector<SectionResult> ElasticBeams::basic_sections(int element, const Vector6& deformation, const double*) const {
   const Element& e = elements_[static_cast<std::size_t>(element)];
-  const Vector6 q = e.stiffness * (e.frame.compatibility * displacement);
+  const Vector6 q = e.stiffness * deformation;
   std::vector<SectionResult> results;
   for (const double x : {0.0, 1.0}) {
     SectionResult result;

@@ -1,36 +1,35 @@
 // Elastic Euler-Bernoulli beam-columns.
 #pragma once
 
-#include "elements/beam_frame.hpp"
-#include "elements/element_group.hpp"
+#include "elements/member.hpp"
 
 namespace nsframe {
 
 // Basic stiffness of a prismatic member (6x6).
 Matrix6 elastic_basic_stiffness(const ElasticSection& section, double length);
 
-class ElasticBeams : public ElementGroup {
+class ElasticBeams : public Members {
  public:
-  explicit ElasticBeams(bool p_delta) : p_delta_(p_delta) {}
+  explicit ElasticBeams(Geometry geometry);
   void add(const ElementNodes& nodes, std::string id, const BeamFrame& frame, const ElasticSection& section,
            SectionOutline outline);
 
-  std::string_view kind() const override { return p_delta_ ? "elastic_beam_p_delta" : "elastic_beam"; }
-  bool linear() const override { return !p_delta_; }
-  bool symmetric() const override { return !p_delta_; }
-  void respond(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
-               Matrix12* tangent) const override;
+  std::string_view kind() const override { return kind_; }
   ElementShape shape(int element) const override;
-  std::vector<SectionResult> sections(int element, const Vector12& displacement, const double* history) const override;
+
+ protected:
+  bool linear_basic() const override { return true; }
+  void respond_basic(int element, const Vector6& deformation, double rounding, const double* committed, double* trial,
+                     Vector6& force, Matrix6& tangent) const override;
+  std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, const double* history) const override;
 
  private:
   struct Element {
-    BeamFrame frame;
     Matrix6 stiffness;
     ElasticSection section;
     SectionOutline outline;
   };
-  bool p_delta_;
+  std::string kind_;
   std::vector<Element> elements_;
 };
 

@@ -18,9 +18,21 @@ using ElementNodes = std::array<int, 2>;
 // What an element looks like, for the output.
 struct ElementShape {
   bool beam = false;              // drawn with Hermite shape functions, else a straight line
+  bool finite = false;            // turns by any amount: its pose says where it is
   Matrix3 axes;                   // rows: local x, y, z in global axes
   double length = 0;              // [m]
+  std::array<Vector3, 2> offset{Vector3::Zero(), Vector3::Zero()};  // from the nodes to the ends [m]
   const SectionOutline* outline = nullptr;  // may be null or empty
+};
+
+// Where an element is at a displacement, for the output.
+struct ElementPose {
+  Matrix3 axes = Matrix3::Identity();  // rows: local x, y, z in global axes
+  std::array<Vector3, 2> arm{Vector3::Zero(), Vector3::Zero()};  // from the nodes to the member's ends [m]
+  // Only of beams that turn by any amount (ElementShape::finite):
+  double length = 0;              // of the chord [m]
+  std::array<Vector3, 2> end{Vector3::Zero(), Vector3::Zero()};       // displacements of the member's ends [m]
+  std::array<Vector3, 2> rotation{Vector3::Zero(), Vector3::Zero()};  // of the end sections from `axes`: rotation vectors in `axes`
 };
 
 // State of one integration point, for the output.
@@ -66,6 +78,13 @@ class ElementGroup {
   virtual Matrix12 damping(int element) const { (void)element; return Matrix12::Zero(); }
 
   virtual ElementShape shape(int element) const = 0;
+  // `history` as left by respond() at `displacement`.
+  virtual ElementPose pose(int element, const Vector12& displacement, const double* history) const {
+    (void)displacement; (void)history;
+    ElementPose pose;
+    pose.axes = shape(element).axes;
+    return pose;
+  }
   // Results at the integration points; empty for elements without sections. `history` as left by respond().
   virtual std::vector<SectionResult> sections(int element, const Vector12& displacement, const double* history) const {
     (void)element; (void)displacement; (void)history;

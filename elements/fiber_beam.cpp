@@ -4,14 +4,12 @@ namespace nsframe {
 
 void FiberBeams::add(const ElementNodes& nodes, std::string id, const BeamFrame& frame,
                      std::shared_ptr<const FiberSection> section, SectionOutline outline) {
-  ElementGroup::add(nodes, std::move(id));
-  history_begin_.push_back(history_begin_.back() + head_size() + points() * section->history_size);
-  elements_.push_back({frame, std::move(section), std::move(outline)});
+  Members::add(nodes, std::move(id), frame, head_size() + points() * section->history_size);
+  elements_.push_back({frame.length, std::move(section), std::move(outline)});
 }
 
 ElementShape FiberBeams::shape(int element) const {
-  const Element& e = element_at(element);
-  return {true, e.frame.axes, e.frame.length, &e.outline};
+  return member_shape(element, &element_at(element).outline);
 }
 
 SectionResult FiberBeams::section_result(int element, int point, const Vector3& deformation,

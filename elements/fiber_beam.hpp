@@ -3,9 +3,8 @@
 
 #include <memory>
 
-#include "elements/beam_frame.hpp"
-#include "elements/element_group.hpp"
 #include "elements/fiber_section.hpp"
+#include "elements/member.hpp"
 #include "elements/quadrature.hpp"
 
 namespace nsframe {
@@ -16,27 +15,24 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 inline constexpr int max_points = 10;  // integration points of a member
 
-class FiberBeams : public ElementGroup {
+class FiberBeams : public Members {
  public:
   // `points`: 2 to max_points.
-  FiberBeams(bool p_delta, int points) : p_delta_(p_delta), rule_(gauss_lobatto(points)) {}
+  FiberBeams(Geometry geometry, int points) : Members(beam_geometry(geometry)), rule_(gauss_lobatto(points)) {}
   void add(const ElementNodes& nodes, std::string id, const BeamFrame& frame,
            std::shared_ptr<const FiberSection> section, SectionOutline outline);
 
-  bool linear() const override { return false; }
-  bool symmetric() const override { return !p_delta_; }
-  int history_begin(int element) const override { return history_begin_[static_cast<std::size_t>(element)]; }
   ElementShape shape(int element) const override;
   int points() const { return static_cast<int>(rule_.position.size()); }
   int fibers(int element) const { return points() * element_at(element).section->fibers; }
 
  protected:
   struct Element {
-    BeamFrame frame;
+    double length;  // [m]
     std::shared_ptr<const FiberSection> section;
     SectionOutline outline;
   };
-  // Doubles that an element keeps before the histories of its sections.
+  // Doubles of its own that an element keeps before the histories of its sections.
   virtual int head_size() const = 0;
   const Element& element_at(int element) const { return elements_[static_cast<std::size_t>(element)]; }
   double* section_history(int element, double* history, int point) const {
@@ -45,15 +41,13 @@ class FiberBeams : public ElementGroup {
   const double* section_history(int element, const double* history, int point) const {
     return history + head_size() + point * element_at(element).section->history_size;
   }
-  // Section result at a point from its deformation; `history` as committed.
+  // Section result at a point from its deformation; `history`, the member's own, as committed.
   SectionResult section_result(int element, int point, const Vector3& deformation, const double* history) const;
 
-  bool p_delta_;
   Quadrature rule_;
 
  private:
   std::vector<Element> elements_;
-  std::vector<int> history_begin_{0};
 };
 
 // The stiffness of the five bending and axial basic DOFs with torsion beside it.

@@ -41,7 +41,7 @@ constexpr double force_tolerance = 1e-11;
 
 }  // namespace
 
-void ForceBeams::initialize_history(int element, double* history) const {
+void ForceBeams::initialize_basic(int element, double* history) const {
   const Element& e = element_at(element);
   std::fill_n(history, head_size(), 0.0);
   Head head(history);
@@ -57,7 +57,7 @@ void ForceBeams::initialize_history(int element, double* history) const {
   balance(e, Vector5::Zero(), history, flexibility);
 }
 
-void ForceBeams::start_step(int, const double* committed, double* trial) const {
+void ForceBeams::start_basic(int, const double* committed, double* trial) const {
   std::copy_n(committed, head_size(), trial);
 }
 
@@ -70,7 +70,7 @@ void ForceBeams::balance(const Element& element, const Vector5& deformation, dou
   for (int i = 0; i < points(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     f[at] = head.section_tangent(i).inverse();
-    const double x = rule_.position[at], weight = rule_.weight[at] * element.frame.length;
+    const double x = rule_.position[at], weight = rule_.weight[at] * element.length;
     const std::array<double, 5> b{1, x - 1, x, x - 1, x};  // the entries of force_interpolation(x)
     const Vector3 remaining = weight * (head.section_deformation(i) - f[at] * head.section_force(i));
     for (int j = 0; j < 5; ++j) {
@@ -103,7 +103,7 @@ double ForceBeams::move_sections(const Element& element, const PointVectors& sta
     head.section_force(i) = response.force;
     head.section_tangent(i) = response.tangent;
     const Vector3 excess = response.force - force_interpolation(rule_.position[at]) * head.force;
-    slope += rule_.weight[at] * element.frame.length * excess.dot(correction[at]);
+    slope += rule_.weight[at] * element.length * excess.dot(correction[at]);
   }
   return slope;
 }
@@ -129,7 +129,7 @@ void ForceBeams::find_sections(int element, const Vector5& deformation, double r
       const Matrix3& f = flexibility[at];
       start[at] = head.section_deformation(i);
       correction[at] = f * out_of_balance;
-      const double weight = rule_.weight[at] * e.frame.length;
+      const double weight = rule_.weight[at] * e.length;
       unbalance += weight * out_of_balance.dot(correction[at]);
       change += weight * changed.dot(f * changed);
       scale += weight * wanted.dot(f * wanted);
@@ -151,20 +151,17 @@ void ForceBeams::find_sections(int element, const Vector5& deformation, double r
   }
 }
 
-void ForceBeams::respond(int element, const Vector12& displacement, const double* committed, double* trial,
-                         Vector12& force, Matrix12* tangent) const {
-  const Element& e = element_at(element);
-  const Vector6 v = e.frame.compatibility * displacement;
-  const double rounding = std::numeric_limits<double>::epsilon() * displacement.cwiseAbs().maxCoeff();
+void ForceBeams::respond_basic(int element, const Vector6& v, double rounding, const double* committed, double* trial,
+                               Vector6& force, Matrix6& tangent) const {
   find_sections(element, v.head<5>(), rounding, committed, trial);
   const Head head(trial);
-  const double torsion = e.section->torsion_stiffness / e.frame.length;
-  Vector6 basic_force;
-  basic_force << head.force, torsion * v[5];
-  to_global(e.frame, p_delta_, displacement, basic_force, with_torsion(head.tangent, torsion), force, tangent);
+  const Element& e = element_at(element);
+  const double torsion = e.section->torsion_stiffness / e.length;
+  force << head.force, torsion * v[5];
+  tangent = with_torsion(head.tangent, torsion);
 }
 
-std::vector<SectionResult> ForceBeams::sections(int element, const Vector12&, const double* history) const {
+std::vector<SectionResult> ForceBeams::basic_sections(int element, const Vector6&, const double* history) const {
   const Head head(const_cast<double*>(history));
   std::vector<SectionResult> results;
   for (int i = 0; i < points(); ++i) results.push_back(section_result(element, i, head.section_deformation(i), history));

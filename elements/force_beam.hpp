@@ -10,13 +10,13 @@ class ForceBeams : public FiberBeams {
  public:
   using FiberBeams::FiberBeams;
   std::string_view kind() const override { return "force_beam"; }
-  void initialize_history(int element, double* history) const override;
-  void start_step(int element, const double* committed, double* trial) const override;
-  void respond(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
-               Matrix12* tangent) const override;
-  std::vector<SectionResult> sections(int element, const Vector12& displacement, const double* history) const override;
 
  protected:
+  void initialize_basic(int element, double* history) const override;
+  void start_basic(int element, const double* committed, double* trial) const override;
+  void respond_basic(int element, const Vector6& deformation, double rounding, const double* committed, double* trial,
+                     Vector6& force, Matrix6& tangent) const override;
+  std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, const double* history) const override;
   // Basic forces (5), element tangent (25), then for each point: deformation (3), force (3), tangent (9).
   int head_size() const override { return 30 + 15 * points(); }
 

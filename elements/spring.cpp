@@ -48,7 +48,9 @@ Matrix12 Springs::damping(int element) const {
 }
 
 ElementShape Springs::shape(int element) const {
-  return {false, elements_[static_cast<std::size_t>(element)].properties.axes, 0, nullptr};
+  ElementShape shape;
+  shape.axes = elements_[static_cast<std::size_t>(element)].properties.axes;
+  return shape;
 }
 
 }  // namespace nsframe

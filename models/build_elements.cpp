@@ -96,8 +96,9 @@ Group& GroupBuilder::group(const std::string& key, Arguments&&... arguments) {
   return static_cast<Group&>(*groups_.back().second);
 }
 
-void GroupBuilder::add(const ElementDescription& element, const ElementNodes& nodes, const Vector3& end_i,
-                       const Vector3& end_j, const std::string& id) {
+void GroupBuilder::add(const ElementDescription& element, const ElementNodes& nodes, const Vector3& node_i,
+                       const Vector3& node_j, const std::string& id) {
+  const Vector3 end_i = node_i + element.offset[0], end_j = node_j + element.offset[1];
   Matrix3 axes;
   try {
     axes = beam_axes(end_i, end_j, element.orientation);
@@ -105,7 +106,7 @@ void GroupBuilder::add(const ElementDescription& element, const ElementNodes& no
     diagnostics_.error(element.at, fmt::format("element '{}': {}", id, problem.what()));
     return;
   }
-  const BeamFrame frame(end_i, end_j, axes);
+  const BeamFrame frame(end_i, end_j, axes, element.offset);
   if (element.kind == ElementKind::truss || element.kind == ElementKind::cable) {
     add_truss(element, nodes, frame, id);
   } else {
@@ -117,7 +118,7 @@ void GroupBuilder::add_beam(const ElementDescription& element, const ElementNode
                             const std::string& id) {
   const Library::Section* section = find(library_.sections, element.section, "section", diagnostics_);
   if (!section) return;
-  const bool p_delta = element.geometry == Geometry::p_delta;
+  const int geometry = static_cast<int>(element.geometry);
   const SectionOutline& outline = section->description->outline;
   if (element.kind == ElementKind::elastic_beam) {
     if (section->fibers && couples(*section->fibers)) {
@@ -127,7 +128,7 @@ void GroupBuilder::add_beam(const ElementDescription& element, const ElementNode
                                      id, element.section.name));
       return;
     }
-    group<ElasticBeams>(fmt::format("elastic {}", p_delta), p_delta).add(nodes, id, frame, section->elastic, outline);
+    group<ElasticBeams>(fmt::format("elastic {}", geometry), element.geometry).add(nodes, id, frame, section->elastic, outline);
     return;
   }
   if (!section->fibers) {
@@ -139,11 +140,11 @@ void GroupBuilder::add_beam(const ElementDescription& element, const ElementNode
     diagnostics_.error(element.at, fmt::format("element '{}': points = {}, must lie in [3, 10]", id, element.points));
     return;
   }
-  const std::string key = fmt::format("fiber {} {} {}", static_cast<int>(element.kind), p_delta, element.points);
+  const std::string key = fmt::format("fiber {} {} {}", static_cast<int>(element.kind), geometry, element.points);
   if (element.kind == ElementKind::displacement_beam) {
-    group<DisplacementBeams>(key, p_delta, element.points).add(nodes, id, frame, section->fibers, outline);
+    group<DisplacementBeams>(key, element.geometry, element.points).add(nodes, id, frame, section->fibers, outline);
   } else {
-    group<ForceBeams>(key, p_delta, element.points).add(nodes, id, frame, section->fibers, outline);
+    group<ForceBeams>(key, element.geometry, element.points).add(nodes, id, frame, section->fibers, outline);
   }
 }
 
@@ -151,11 +152,15 @@ void GroupBuilder::add_truss(const ElementDescription& element, const ElementNod
                              const std::string& id) {
   const UniaxialLaw* law = find(library_.materials, element.material, "material", diagnostics_);
   if (!law) return;
+  if (frame.has_offsets()) {
+    diagnostics_.error(element.at, fmt::format("element '{}': a {} has no offsets, they would bend it", id,
+                                               element.kind == ElementKind::cable ? "cable" : "truss"));
+    return;
+  }
   if (!(element.area > 0)) {
     diagnostics_.error(element.at, fmt::format("element '{}': the area must be positive", id));
     return;
   }
-  const bool p_delta = element.geometry == Geometry::p_delta;
   Trusses::Kind kind = is_linear(*law) && element.pretension == 0 ? Trusses::Kind::linear : Trusses::Kind::nonlinear;
   if (element.kind == ElementKind::cable) {
     kind = Trusses::Kind::cable;
@@ -164,7 +169,7 @@ void GroupBuilder::add_truss(const ElementDescription& element, const ElementNod
     }
     if (element.pretension < 0) diagnostics_.error(element.at, fmt::format("cable '{}': negative pretension", id));
   }
-  group<Trusses>(fmt::format("truss {} {}", static_cast<int>(kind), p_delta), kind, p_delta)
+  group<Trusses>(fmt::format("truss {} {}", static_cast<int>(kind), static_cast<int>(element.geometry)), kind, element.geometry)
       .add(nodes, id, frame, *law, element.area, element.pretension);
 }
 

@@ -32,7 +32,7 @@ class GroupBuilder {
  public:
   GroupBuilder(const Library& library, Diagnostics& diagnostics) : library_(library), diagnostics_(diagnostics) {}
   // `nodes`: resolved ends; `id`: unique in the model.
-  void add(const ElementDescription& element, const ElementNodes& nodes, const Vector3& end_i, const Vector3& end_j,
+  void add(const ElementDescription& element, const ElementNodes& nodes, const Vector3& node_i, const Vector3& node_j,
            const std::string& id);
   void add(const SpringDescription& spring, const ElementNodes& nodes, const std::string& id);
   std::vector<std::unique_ptr<const ElementGroup>> take();

@@ -10,6 +10,7 @@
 
 #include "base/diagnostics.hpp"
 #include "base/types.hpp"
+#include "elements/member_geometry.hpp"
 #include "elements/sections.hpp"
 #include "materials/uniaxial.hpp"
 
@@ -41,7 +42,6 @@ struct MassDescription {
 };
 
 enum class ElementKind { elastic_beam, displacement_beam, force_beam, truss, cable };
-enum class Geometry { linear, p_delta };
 
 // A member between two nodes.
 struct ElementDescription {
@@ -55,6 +55,8 @@ struct ElementDescription {
   double pretension = 0;               // [N], truss and cable only, positive in tension
   int points = 5;                      // Gauss-Lobatto points of a fiber beam, 3 to 10
   Geometry geometry = Geometry::linear;
+  std::array<Vector3, 2> offset{Vector3::Zero(), Vector3::Zero()};  // beams: rigid arms from the nodes to the member's
+                                                                    // ends, global axes [m]
   std::optional<Vector3> orientation;  // a vector in the local x-z plane (OpenSees' vecxz); default: see beam_axes()
 };
 

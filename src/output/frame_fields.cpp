@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/beam_shapes.hpp"
 #include "output/frame_geometry.hpp"
 #include "output/member_forces.hpp"
 
@@ -26,6 +27,28 @@ void evaluate_points(const FrameGeometry& geometry, const VectorX& displacement,
     store(fields.displacement, point, moved.segment<3>(first) + rotation.cross(arm));
     store(fields.rotation, point, rotation);
     store(fields.velocity, point, moving.segment<3>(first) + spin.cross(arm));
+  }
+}
+
+// Beams at large rotations: between their ends by the shape functions along the present chord, with the sections turned
+// by the whole rotation. The field `rotation` stays that of the nodes' DOFs.
+void evaluate_finite(const FrameGeometry& geometry, const Model& model, const State& state,
+                     const VectorX& displacement, const VectorX& velocity, FrameFields& fields) {
+  for (const FiniteMember& member : geometry.finite) {
+    const ElementGroup& group = *model.groups[member.group];
+    const ElementShape shape = group.shape(member.element);
+    const ElementPose pose = group.pose(member.element, element_displacement(group, member.element, displacement),
+                                        element_history(model, member.group, member.element, state));
+    const Vector12 rate = element_displacement(group, member.element, velocity);
+    const int first_station = geometry.station[static_cast<std::size_t>(member.first_point)];
+    for (int point = member.first_point; point < member.last_point; ++point) {
+      const auto i = static_cast<std::size_t>(point);
+      const double along = double(geometry.station[i] - first_station) / member.segments;
+      const SectionPlace place = finite_place(shape, pose, rate, along);
+      const Vector3 arm = place.turn * geometry.arm[i];
+      store(fields.displacement, point, place.displacement + arm - geometry.arm[i]);
+      store(fields.velocity, point, place.velocity + place.spin.cross(arm));
+    }
   }
 }
 
@@ -80,7 +103,9 @@ void evaluate_frame(const FrameGeometry& geometry, const Model& model, const Sta
   fields.impulse.assign(cells, 0.0);
   fields.yielded.assign(cells, 0);
   const VectorX displacement = model.dofs.expand(state.displacement);
-  evaluate_points(geometry, displacement, model.dofs.expand(state.velocity), fields);
+  const VectorX velocity = model.dofs.expand(state.velocity);
+  evaluate_points(geometry, displacement, velocity, fields);
+  evaluate_finite(geometry, model, state, displacement, velocity, fields);
   evaluate_members(geometry, model, state, displacement, fields);
   evaluate_contacts(geometry, model, state, interval_impulse, fields);
 }

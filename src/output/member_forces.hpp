@@ -14,7 +14,7 @@ Vector12 element_displacement(const ElementGroup& group, int element, const Vect
 // First double of an element's history in `state`.
 const double* element_history(const Model& model, std::size_t group, int element, const State& state);
 
-// Forces that the nodes apply to the ends of elements, in the element's local axes: at node i N, VY, VZ [N],
+// Forces that the nodes apply to the ends of elements (at the far side of rigid arms), in the element's present local axes: at node i N, VY, VZ [N],
 // T, MY, MZ [N m], then the same at node j. Keeps scratch between calls.
 class EndForces {
  public:

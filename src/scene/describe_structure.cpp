@@ -27,6 +27,7 @@ ElementDescription describe(const BeamTable& beam, const ExplicitStructure& stru
   out.geometry = beam.geometry.value_or(structure.geometry);
   if (beam.orientation)
     out.orientation = Vector3((*beam.orientation)[0], (*beam.orientation)[1], (*beam.orientation)[2]);
+  out.offset = {beam.offset_i.value_or(Vector3::Zero()), beam.offset_j.value_or(Vector3::Zero())};
   return out;
 }
 
@@ -170,13 +171,17 @@ BeamTable beam_table(const ElementDescription& element) {
                 BeamKind::elastic,
                 element.points,
                 element.geometry,
-                std::nullopt};
+                {},
+                {},
+                {}};
   if (element.kind == ElementKind::displacement_beam) out.element = BeamKind::displacement;
   if (element.kind == ElementKind::force_beam) out.element = BeamKind::force_based;
   if (element.orientation) {
     const Vector3& v = *element.orientation;
     out.orientation = {v.x(), v.y(), v.z()};
   }
+  if (!element.offset[0].isZero(0)) out.offset_i = element.offset[0];
+  if (!element.offset[1].isZero(0)) out.offset_j = element.offset[1];
   return out;
 }
 

@@ -20,7 +20,9 @@ constexpr auto names_of(BeamKind) {
 }
 constexpr auto names_of(BarKind) { return Names<BarKind, 2>{{{"truss", BarKind::truss}, {"cable", BarKind::cable}}}; }
 constexpr auto names_of(Geometry) {
-  return Names<Geometry, 2>{{{"linear", Geometry::linear}, {"p-delta", Geometry::p_delta}}};
+  return Names<Geometry, 3>{{{"linear", Geometry::linear},
+                             {"p-delta", Geometry::p_delta},
+                             {"corotational", Geometry::corotational}}};
 }
 constexpr auto names_of(Dof) {
   return Names<Dof, 6>{

@@ -35,6 +35,9 @@ inline constexpr std::string_view mass_row[]{"node", "mass..."};
 constexpr RowKeys row_keys(const MassTable*) { return mass_row; }
 constexpr bool is_map(const MassTable*) { return true; }
 
+inline constexpr std::string_view geometry_text =
+    "small displacements, with the axial force on the chord's shift (P-Delta), or displacements and rotations of any size";
+
 template <class Archive>
 void visit(Archive& ar, BeamTable& b) {
   ar(required("id", "unique among the structure's elements"), b.id);
@@ -46,11 +49,21 @@ void visit(Archive& ar, BeamTable& b) {
            .range = gauss_points,
            .default_text = "the structure's"},
      b.points);
-  ar(Field{.key = "geometry", .text = "linear or P-Delta", .default_text = "the structure's"}, b.geometry);
+  ar(Field{.key = "geometry", .text = geometry_text, .default_text = "the structure's"}, b.geometry);
   ar(Field{.key = "orientation",
            .text = "vector in the local x-z plane",
            .default_text = "local y along global X in vertical members, upwards in others"},
      b.orientation);
+  ar(Field{.key = "offset_i",
+           .text = "rigid arm from the first node to the member's end, global axes",
+           .dimension = dimension::length,
+           .default_text = "none"},
+     b.offset_i);
+  ar(Field{.key = "offset_j",
+           .text = "likewise at the second node",
+           .dimension = dimension::length,
+           .default_text = "none"},
+     b.offset_j);
 }
 inline constexpr std::string_view beam_row[]{"id", "nodes", "nodes", "section"};
 constexpr RowKeys row_keys(const BeamTable*) { return beam_row; }
@@ -62,7 +75,7 @@ void visit(Archive& ar, BarTable& b) {
   ar(required("material", "material"), b.material);
   ar(required("area", "cross-section", dimension::area, range::positive), b.area);
   ar(Field{"pretension", "axial force at rest, positive in tension", dimension::force}, b.pretension);
-  ar(Field{.key = "geometry", .text = "linear or P-Delta", .default_text = "the structure's"}, b.geometry);
+  ar(Field{.key = "geometry", .text = geometry_text, .default_text = "the structure's"}, b.geometry);
 }
 inline constexpr std::string_view bar_row[]{"id", "nodes", "nodes", "material", "area", "pretension"};
 constexpr RowKeys row_keys(const BarTable*) { return bar_row; }
@@ -188,7 +201,7 @@ void visit_members(Archive& ar, FrameMembers& m) {
   ar(required("section", "one, or one a story from the lowest"), m.section);
   ar(Field{"element", "kind"}, m.element);
   ar(Field{"points", "Gauss-Lobatto points of a fiber beam", {}, gauss_points}, m.points);
-  ar(Field{"geometry", "linear or P-Delta"}, m.geometry);
+  ar(Field{"geometry", geometry_text}, m.geometry);
 }
 template <class Archive>
 void visit(Archive& ar, FrameMembers& m) {

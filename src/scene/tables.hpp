@@ -102,6 +102,7 @@ struct BeamTable {
   std::optional<int> points;
   std::optional<Geometry> geometry;
   std::optional<std::array<double, 3>> orientation;
+  std::optional<Vector3> offset_i, offset_j;  // [m]
 };
 
 struct BarTable {  // truss or cable

@@ -35,9 +35,10 @@ inline std::string dump(const SectionDescription& s) {
 }
 
 inline std::string dump(const ElementDescription& e) {
-  return fmt::format("element {} {} {}-{} section {} material {} area {} pretension {} points {} geometry {} {}\n",
+  return fmt::format("element {} {} {}-{} section {} material {} area {} pretension {} points {} geometry {} {} offsets {} {}\n",
                      e.id, int(e.kind), e.node_i.name, e.node_j.name, e.section.name, e.material.name, e.area,
-                     e.pretension, e.points, int(e.geometry), e.orientation ? numbers(*e.orientation) : "");
+                     e.pretension, e.points, int(e.geometry), e.orientation ? numbers(*e.orientation) : "",
+                     numbers(e.offset[0]), numbers(e.offset[1]));
 }
 
 inline std::string dump(const SpringDescription& s) {

@@ -118,6 +118,7 @@ beams = [
   [1, 1, "top", "shape"],
   { id = "b", nodes = ["top", 3], section = "constants", element = "elastic", geometry = "linear", orientation = [0, 1, 1] },
   { id = 3, nodes = [3, 4], section = "fibers", element = "force-based", points = 7 },
+  { id = 4, nodes = [3, 5], section = "shape", geometry = "corotational", offset_i = ["20 cm", 0, -0.1], offset_j = [-0.2, 0, 0] },
 ]
 trusses = [["t", 1, 3, "linear", "1 cm2"]]
 cables = [{ id = "c", nodes = [1, 4], material = "linear", area = 1e-4, pretension = "2 kN", geometry = "linear" }]

@@ -77,9 +77,8 @@ class DisplacementControl {
 };
 
 void compare(const std::string& kind_name, ElementKind kind, int elements, const std::string& law_name, const UniaxialLaw& law,
-             Geometry geometry) {
-  const std::string file = "cantilever_" + kind_name + std::to_string(elements) + "_" + law_name +
-                           (geometry == Geometry::linear ? "_linear" : "_pdelta");
+             Geometry geometry, const std::string& suffix, double tolerance = 1e-6) {
+  const std::string file = "cantilever_" + kind_name + std::to_string(elements) + "_" + law_name + "_" + suffix;
   CAPTURE(file);
   Diagnostics diagnostics;
   const Model model = build_model(cantilever(kind, law, geometry, elements), diagnostics);
@@ -98,22 +97,42 @@ void compare(const std::string& kind_name, ElementKind kind, int elements, const
     force_error = std::max(force_error, std::abs(control.factor - row[1]));
     sag_error = std::max(sag_error, std::abs(state.displacement[tip + 1] - row[2]));
   }
-  CHECK(force_error < 1e-6 * peak_force);
-  CHECK(sag_error < 1e-6 * peak_sag);
+  CHECK(force_error < tolerance * peak_force);
+  CHECK(sag_error < tolerance * peak_sag);
 }
 
-void compare_all(Geometry geometry) {
-  const Steel01 steel01{235e6, 210e9, 0.01};
-  const Steel02 steel02{235e6, 210e9, 0.01, 20.0, 0.925, 0.15};
-  for (const int elements : {1, 8}) {
-    compare("disp", ElementKind::displacement_beam, elements, "steel01", steel01, geometry);
-    compare("disp", ElementKind::displacement_beam, elements, "steel02", steel02, geometry);
-  }
-  compare("force", ElementKind::force_beam, 1, "steel01", steel01, geometry);
-  compare("force", ElementKind::force_beam, 1, "steel02", steel02, geometry);
+const Steel01 steel01{235e6, 210e9, 0.01};
+const Steel02 steel02{235e6, 210e9, 0.01, 20.0, 0.925, 0.15};
+
+void compare_coarse(Geometry geometry, const std::string& suffix, double tolerance = 1e-6) {
+  compare("disp", ElementKind::displacement_beam, 1, "steel01", steel01, geometry, suffix, tolerance);
+  compare("disp", ElementKind::displacement_beam, 1, "steel02", steel02, geometry, suffix, tolerance);
+  compare("force", ElementKind::force_beam, 1, "steel01", steel01, geometry, suffix, tolerance);
+  compare("force", ElementKind::force_beam, 1, "steel02", steel02, geometry, suffix, tolerance);
+}
+
+void compare_fine(Geometry geometry, const std::string& suffix) {
+  compare("disp", ElementKind::displacement_beam, 8, "steel01", steel01, geometry, suffix);
+  compare("disp", ElementKind::displacement_beam, 8, "steel02", steel02, geometry, suffix);
 }
 
 }  // namespace
 
-TEST_CASE("cyclic pushovers of a fiber cantilever equal OpenSees', linear geometry") { compare_all(Geometry::linear); }
-TEST_CASE("cyclic pushovers of a fiber cantilever equal OpenSees', P-Delta") { compare_all(Geometry::p_delta); }
+TEST_CASE("cyclic pushovers of a fiber cantilever equal OpenSees', linear geometry") {
+  compare_coarse(Geometry::linear, "linear");
+  compare_fine(Geometry::linear, "linear");
+}
+
+TEST_CASE("cyclic pushovers of a fiber cantilever equal OpenSees', P-Delta") {
+  compare_coarse(Geometry::p_delta, "pdelta");
+  compare_fine(Geometry::p_delta, "pdelta");
+}
+
+// OpenSees' spatial transformation takes the y and z axes of a member by Crisfield's midpoint rule, which leaves them
+// skew by the cube of the angle between the chord and the mean section: with one element a member, 4e-5 of the peak
+// force here. Its plane transformation has no such error, and equals ours.
+TEST_CASE("cyclic pushovers of a fiber cantilever equal OpenSees', corotational") {
+  compare_fine(Geometry::corotational, "corotational");
+  compare_coarse(Geometry::corotational, "corotational2d");
+  compare_coarse(Geometry::corotational, "corotational", 1e-4);
+}
