@@ -12,6 +12,8 @@
 
 namespace nsframe {
 
+struct MemberLoad;
+
 // End nodes of a two-node element; node -1 is the ground.
 using ElementNodes = std::array<int, 2>;
 
@@ -53,7 +55,8 @@ class ElementGroup {
   const ElementNodes& nodes(int element) const { return nodes_[static_cast<std::size_t>(element)]; }
   const std::string& id(int element) const { return ids_[static_cast<std::size_t>(element)]; }
 
-  // True when force = tangent * displacement with a constant tangent: assembled once, never evaluated again.
+  // True when force = tangent * displacement (beside constant loads) with a constant tangent: assembled once, never
+  // evaluated again.
   virtual bool linear() const = 0;
 
   // False when the tangent is not symmetric (P-Delta).
@@ -66,6 +69,19 @@ class ElementGroup {
   // guess back to the committed state.
   virtual void start_step(int element, const double* committed, double* trial) const {
     (void)element; (void)committed; (void)trial;
+  }
+
+  // The load between the member's ends; null or empty for none. Groups that aren't linear carry `load_factor` times it,
+  // a number in the element's history (null for elements without a load), zero in a virgin one: static analysis brings it
+  // to 1. Linear groups carry all of it: force = tangent * displacement + respond(0).
+  virtual const MemberLoad* load(int element) const { (void)element; return nullptr; }
+  virtual double* load_factor(int element, double* history) const { (void)element; (void)history; return nullptr; }
+
+  // The part of load() that acts in a state with this history.
+  double load_part(int element, const double* history) const {
+    if (linear()) return 1;
+    const double* const factor = load_factor(element, const_cast<double*>(history));
+    return factor ? *factor : 0;
   }
 
   // Internal force (12) and, if `tangent` is not null, its derivative (12x12), in global axes [N, N m], at the

@@ -1,36 +1,61 @@
 #include "elements/fiber_beam.hpp"
 
+#include <algorithm>
+
 namespace nsframe {
 
-void FiberBeams::add(const ElementNodes& nodes, std::string id, const BeamFrame& frame,
-                     std::shared_ptr<const FiberSection> section, SectionOutline outline) {
-  Members::add(nodes, std::move(id), frame, head_size() + points() * section->history_size);
-  elements_.push_back({frame.length, std::move(section), std::move(outline)});
+void FiberBeams::add(const ElementNodes& nodes, std::string id, FiberMember member) {
+  Element e{std::move(member)};
+  e.torsion = e.releases.basic[5] ? 0 : torsion_stiffness(e);
+  int size = head_size(e);
+  for (const auto& section : e.sections) {
+    e.section_begin.push_back(size);
+    size += section->history_size;
+  }
+  Members::add(nodes, std::move(id), e.frame, size, !e.load.empty());
+  elements_.push_back(std::move(e));
+}
+
+void FiberBeams::initialize_basic(int element, double* history) const {
+  const Element& e = element_at(element);
+  std::fill_n(history, e.section_begin.front(), 0.0);
+  for (int i = 0; i < e.points(); ++i) nsframe::initialize_history(e.section(i), e.section_history(history, i));
+}
+
+void FiberBeams::start_basic(int element, const double* committed, double* trial) const {
+  std::copy_n(committed, element_at(element).section_begin.front(), trial);
 }
 
 ElementShape FiberBeams::shape(int element) const {
   return member_shape(element, &element_at(element).outline);
 }
 
-SectionResult FiberBeams::section_result(int element, int point, const Vector3& deformation,
+int FiberBeams::fibers(int element) const {
+  int count = 0;
+  for (const auto& section : element_at(element).sections) count += section->fibers;
+  return count;
+}
+
+void FiberBeams::with_torsion(const Element& e, const Vector5& basic_force, const Matrix5& basic_tangent, double twist,
+                              Vector6& force, Matrix6& tangent) {
+  force << basic_force, e.torsion * twist;
+  tangent.setZero();
+  tangent.topLeftCorner<5, 5>() = basic_tangent;
+  tangent(5, 5) = e.torsion;
+}
+
+SectionResult FiberBeams::section_result(const Element& e, int point, const Vector3& deformation,
                                          const double* history) const {
-  const FiberSection& section = *element_at(element).section;
-  const double* const committed = section_history(element, history, point);
+  const FiberSection& section = e.section(point);
+  const double* const committed = e.section_history(history, point);
   std::vector<double> scratch(static_cast<std::size_t>(section.history_size));
   SectionResult result;
-  result.position = rule_.position[static_cast<std::size_t>(point)];
+  result.position = e.position(point);
   result.deformation = deformation;
   result.force = nsframe::respond(section, deformation, committed, scratch.data()).force;
   result.peak_strain_ratio = peak_strain_ratio(section, deformation);
   result.yielded = has_yielded(section, deformation, committed) ? 1 : 0;
   return result;
-}
-
-Matrix6 with_torsion(const Matrix5& stiffness, double torsion) {
-  Matrix6 all = Matrix6::Zero();
-  all.topLeftCorner<5, 5>() = stiffness;
-  all(5, 5) = torsion;
-  return all;
 }
 
 }  // namespace nsframe

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "elements/corotational.hpp"
+#include "elements/member_load.hpp"
 
 namespace nsframe {
 
@@ -43,12 +44,21 @@ class PDeltaGeometry : public LinearGeometry {
     *tangent += basic_force[0] / frame.length * (frame.chord_shift.transpose() * frame.chord_shift);
     *tangent += direction * (basic_tangent.row(0) * frame.compatibility);
   }
+  void add_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement, Vector12& force,
+                Matrix12* tangent) const override {
+    nsframe::add_load(load, part, frame, true, displacement, force, tangent);
+  }
 };
 
 }  // namespace
 
 double MemberGeometry::rounding(const Vector12& displacement) const {
   return std::numeric_limits<double>::epsilon() * displacement.cwiseAbs().maxCoeff();
+}
+
+void MemberGeometry::add_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement,
+                              Vector12& force, Matrix12* tangent) const {
+  nsframe::add_load(load, part, frame, false, displacement, force, tangent);
 }
 
 ElementPose MemberGeometry::pose(const BeamFrame& frame, const Vector12&, const double*) const {

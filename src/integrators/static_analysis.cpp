@@ -24,15 +24,17 @@ VectorX solve_sparse(const SparseMatrix& K, bool symmetric, const VectorX& r) {
   return factor.solve(r);
 }
 
-// One load level by Newton; false when it does not converge. `start`: norm of the internal force of the first level, which
+// One load level by Newton, with `members` of the loads on members; false when it does not converge. `start`: norm of the internal force of the first level, which
 // is all that there is to compare with where pretension alone is released.
-bool reach(System& system, const VectorX& load, double start, const StaticOptions& options, const State& committed, State& trial,
+bool reach(System& system, const VectorX& load, double members, double start, const StaticOptions& options, const State& committed, State& trial,
            double& worst) {
   trial = committed;
   system.assembler.start_step(committed.history, trial.history);
+  system.assembler.set_load_factor(members, trial.history);
   for (int iteration = 0; iteration <= options.max_iterations; ++iteration) {
     system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force);
     const VectorX residual = load - trial.internal_force;
+    if (iteration == 0) start = std::max(start, trial.internal_force.norm());  // all there is where members alone are loaded
     const double scale = std::max({load.norm(), trial.internal_force.norm(), start});
     worst = residual.norm() / std::max(scale, 1e-300);
     if (residual.norm() <= options.tolerance * scale) return true;
@@ -58,6 +60,7 @@ State virgin_state(System& system) {
 
 void solve_static(System& system, const VectorX& load, const StaticOptions& options, State& state) {
   const VectorX start = state.internal_force;
+  const double members = system.assembler.load_factor(state.history);
   double reached = 0, increment = 1;
   State trial = state;
   for (int halvings = 0; reached < 1;) {
@@ -66,7 +69,7 @@ void solve_static(System& system, const VectorX& load, const StaticOptions& opti
     bool converged = false;
     std::string reason;
     try {
-      converged = reach(system, start + level * (load - start), start.norm(), options, state, trial, worst);
+      converged = reach(system, start + level * (load - start), members + level * (1 - members), start.norm(), options, state, trial, worst);
     } catch (const ConvergenceError& problem) {
       reason = std::string(": ") + problem.what();
     }

@@ -64,11 +64,12 @@ void evaluate_members(const FrameGeometry& geometry, const Model& model, const S
   for (const auto& drawn : geometry.drawn) {
     const Vector12& forces = end_forces.evaluate(model, drawn.group, drawn.element, state, displacement);
     const ElementGroup& group = *model.groups[drawn.group];
-    const auto sections = group.sections(drawn.element, element_displacement(group, drawn.element, displacement),
-                                         element_history(model, drawn.group, drawn.element, state));
+    const double* const history = element_history(model, drawn.group, drawn.element, state);
+    const auto sections = group.sections(drawn.element, element_displacement(group, drawn.element, displacement), history);
+    const double length = group.shape(drawn.element).length, part = group.load_part(drawn.element, history);
     for (int cell = drawn.first_cell; cell < drawn.last_cell; ++cell) {
       const auto i = static_cast<std::size_t>(cell);
-      const SectionForce at = section_force(forces, geometry.along[i]);
+      const SectionForce at = section_force(forces, geometry.along[i], group.load(drawn.element), part, length);
       store(fields.force, cell, at.force);
       store(fields.moment, cell, at.moment);
       if (sections.empty()) continue;

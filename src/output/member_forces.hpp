@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "elements/member_load.hpp"
 #include "models/model.hpp"
 #include "models/state.hpp"
 
@@ -26,11 +27,12 @@ class EndForces {
   Vector12 force_;
 };
 
-// Section force and moment at `along` in [0, 1] of a member without loads between its ends, as the part beyond acts on
-// the part before: (N, VY, VZ) [N] and (T, MY, MZ) [N m].
+// Section force and moment at `along` in [0, 1] of a member, as the part beyond acts on the part before: (N, VY, VZ) [N]
+// and (T, MY, MZ) [N m]. By equilibrium with the end forces and, where the member has one, `part` of its load.
 struct SectionForce {
   Vector3 force, moment;
 };
 SectionForce section_force(const Vector12& end_forces, double along);
+SectionForce section_force(const Vector12& end_forces, double along, const MemberLoad* load, double part, double length);
 
 }  // namespace nsframe

@@ -33,7 +33,7 @@ constexpr std::string_view scalar_key(const Table*) {
   return {};
 }
 
-inline constexpr Range gauss_points{3, 10, false, false};
+inline constexpr Range integration_points{2, max_points, false, false};
 inline constexpr Range count{1, 1000};
 
 // --- materials
@@ -85,6 +85,10 @@ void visit(Archive& ar, ConstantsSection& s) {
   ar(required("Iz", "second moment for bending in the local x-y plane", m4, range::positive), s.constants.Iz);
   ar(required("Iy", "second moment for bending in the local x-z plane", m4, range::positive), s.constants.Iy);
   ar(required("J", "torsion constant", m4, range::non_negative), s.constants.J);
+  ar(Field{"Ay", "shear area for forces along local y, Timoshenko's beam; 0: no shear deformation", dimension::area,
+           range::non_negative},
+     s.constants.Ay);
+  ar(Field{"Az", "the same along local z", dimension::area, range::non_negative}, s.constants.Az);
   ar(Field{"depth", "along local y, of the rectangle drawn; 0: none drawn", dimension::length, range::non_negative},
      s.depth);
   ar(Field{"width", "along local z, of the rectangle drawn", dimension::length, range::non_negative}, s.width);
@@ -145,7 +149,8 @@ template <class Archive>
 void visit(Archive& ar, GravityTable& g) {
   ar(Field{"acceleration", "gravity", dimension::acceleration, range::non_negative}, g.acceleration);
   ar(Field{"direction", "in which it pulls"}, g.direction);
-  ar(Field{"statically_first", "find the rest under gravity before t = 0; false: it acts suddenly at t = 0"},
+  ar(Field{"statically_first",
+           "find the rest under gravity and the loads on beams before t = 0; false: they act suddenly at t = 0"},
      g.statically_first);
 }
 

@@ -24,6 +24,10 @@ constexpr auto names_of(Geometry) {
                              {"p-delta", Geometry::p_delta},
                              {"corotational", Geometry::corotational}}};
 }
+constexpr auto names_of(Axis) { return Names<Axis, 3>{{{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}}}; }
+constexpr auto names_of(LoadAxes) {
+  return Names<LoadAxes, 2>{{{"global", LoadAxes::global}, {"local", LoadAxes::local}}};
+}
 constexpr auto names_of(Dof) {
   return Names<Dof, 6>{
       {{"ux", Dof::ux}, {"uy", Dof::uy}, {"uz", Dof::uz}, {"rx", Dof::rx}, {"ry", Dof::ry}, {"rz", Dof::rz}}};

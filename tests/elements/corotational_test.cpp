@@ -45,6 +45,10 @@ std::shared_ptr<const FiberSection> fibers() {
   return std::make_shared<FiberSection>(list, 5e4);
 }
 
+FiberMember fiber_member(bool offsets) {
+  return {frame(offsets), gauss_lobatto(5), std::vector<std::shared_ptr<const FiberSection>>(5, fibers())};
+}
+
 struct Case {
   std::string name;
   std::unique_ptr<ElementGroup> group;
@@ -58,9 +62,9 @@ std::vector<Case> all_members(Geometry geometry = Geometry::corotational) {
   };
   for (const bool offsets : {false, true}) {
     const std::string suffix = offsets ? " with offsets" : "";
-    add("elastic" + suffix, std::make_unique<ElasticBeams>(geometry), frame(offsets), rectangle, SectionOutline{});
-    add("displacement" + suffix, std::make_unique<DisplacementBeams>(geometry, 5), frame(offsets), fibers(), SectionOutline{});
-    add("force" + suffix, std::make_unique<ForceBeams>(geometry, 5), frame(offsets), fibers(), SectionOutline{});
+    add("elastic" + suffix, std::make_unique<ElasticBeams>(geometry), ElasticMember{frame(offsets), rectangle});
+    add("displacement" + suffix, std::make_unique<DisplacementBeams>(geometry), fiber_member(offsets));
+    add("force" + suffix, std::make_unique<ForceBeams>(geometry), fiber_member(offsets));
   }
   add("truss", std::make_unique<Trusses>(Trusses::Kind::nonlinear, geometry), frame(false), steel, 2e-4, 5e3);
   add("cable", std::make_unique<Trusses>(Trusses::Kind::cable, geometry), frame(false), Elastic{160e9}, 1e-4, 2e3);
@@ -227,7 +231,7 @@ TEST_CASE("the work on an elastic corotational member equals its strain energy")
   Random random;
   for (const bool offsets : {false, true}) {
     ElasticBeams beams(Geometry::corotational);
-    beams.add({0, 1}, "e", frame(offsets), rectangle, {});
+    beams.add({0, 1}, "e", {frame(offsets), rectangle});
     Probe probe(beams);
     const Vector12 end = moved(deformation(random, 0.1), rotation_exponential(Vector3(0.5, -1.2, 0.8)), random.vector(1));
     const Quadrature rule = gauss_lobatto(10);
@@ -264,9 +268,9 @@ TEST_CASE("small displacements of a corotational member give the forces of linea
 TEST_CASE("a rigid arm in linear geometry gives the forces of a member tied to its nodes by small rotations") {
   Random random;
   ElasticBeams with(Geometry::linear), without(Geometry::linear);
-  with.add({0, 1}, "a", frame(true), rectangle, {});
+  with.add({0, 1}, "a", {frame(true), rectangle});
   const BeamFrame far(node_i + arms[0], node_j + arms[1], frame(true).axes);
-  without.add({0, 1}, "b", far, rectangle, {});
+  without.add({0, 1}, "b", {far, rectangle});
   Probe a(with), b(without);
   const Vector12 u = deformation(random, 0.01);
   Vector12 at_ends = u;

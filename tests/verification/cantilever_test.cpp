@@ -4,6 +4,7 @@
 
 #include "integrators/static_analysis.hpp"
 #include "models/model.hpp"
+#include "tests/support/displacement_control.hpp"
 #include "tests/support/reference_data.hpp"
 
 using namespace nsframe;
@@ -42,39 +43,6 @@ ModelDescription cantilever(ElementKind kind, const UniaxialLaw& law, Geometry g
   d.structures.push_back(s);
   return d;
 }
-
-// Newton with one displacement prescribed: load = dead + factor * pattern, displacement[dof] = target.
-class DisplacementControl {
- public:
-  DisplacementControl(System& system, VectorX dead, int dof) : system_(system), dead_(std::move(dead)), dof_(dof) {}
-
-  double factor = 0;
-  void reach(double target, State& state) {
-    State trial = state;
-    system_.assembler.start_step(state.history, trial.history);
-    const VectorX pattern = VectorX::Unit(dead_.size(), dof_);
-    for (int i = 0; i < 100; ++i) {
-      system_.assembler.internal_force(trial.displacement, state.history, trial.history, trial.internal_force);
-      const VectorX residual = dead_ + factor * pattern - trial.internal_force;
-      const double miss = target - trial.displacement[dof_];
-      if (residual.norm() < 1e-6 && std::abs(miss) < 1e-15) {
-        std::swap(state, trial);
-        return;
-      }
-      const Eigen::PartialPivLU<MatrixX> K{MatrixX(system_.assembler.tangent())};
-      const VectorX by_residual = K.solve(residual), by_pattern = K.solve(pattern);
-      const double change = (miss - by_residual[dof_]) / by_pattern[dof_];
-      factor += change;
-      trial.displacement += by_residual + change * by_pattern;
-    }
-    FAIL("displacement control did not converge at " << target);
-  }
-
- private:
-  System& system_;
-  VectorX dead_;
-  int dof_;
-};
 
 void compare(const std::string& kind_name, ElementKind kind, int elements, const std::string& law_name, const UniaxialLaw& law,
              Geometry geometry, const std::string& suffix, double tolerance = 1e-6) {
