@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "base/rotation.hpp"
+
 namespace nsframe {
 
 Matrix3 beam_axes(const Vector3& end_i, const Vector3& end_j, const std::optional<Vector3>& orientation) {
@@ -26,8 +28,9 @@ Matrix3 beam_axes(const Vector3& end_i, const Vector3& end_j, const std::optiona
   return axes;
 }
 
-BeamFrame::BeamFrame(const Vector3& end_i, const Vector3& end_j, const Matrix3& local_axes)
-    : length((end_j - end_i).norm()), axes(local_axes) {
+BeamFrame::BeamFrame(const Vector3& end_i, const Vector3& end_j, const Matrix3& local_axes,
+                     const std::array<Vector3, 2>& arms)
+    : length((end_j - end_i).norm()), axes(local_axes), offset(arms) {
   const auto x = axes.row(0), y = axes.row(1), z = axes.row(2);
   chord_shift.block<1, 3>(0, 0) = -y;
   chord_shift.block<1, 3>(0, 6) = y;
@@ -43,22 +46,10 @@ BeamFrame::BeamFrame(const Vector3& end_i, const Vector3& end_j, const Matrix3& 
   }
   compatibility.block<1, 3>(5, 3) = -x;
   compatibility.block<1, 3>(5, 9) = x;
-}
-
-void to_global(const BeamFrame& frame, bool p_delta, const Vector12& displacement, const Vector6& basic_force,
-               const Matrix6& basic_tangent, Vector12& force, Matrix12* tangent) {
-  const Matrix6x12& A = frame.compatibility;
-  force.noalias() = A.transpose() * basic_force;
-  if (tangent) {
-    const Matrix6x12 stiff = basic_tangent * A;
-    tangent->noalias() = A.transpose() * stiff;
-  }
-  if (!p_delta) return;
-  const Vector12 direction = frame.chord_shift.transpose() * (frame.chord_shift * displacement) / frame.length;
-  force += basic_force[0] * direction;
-  if (tangent) {
-    *tangent += basic_force[0] / frame.length * (frame.chord_shift.transpose() * frame.chord_shift);
-    *tangent += direction * (basic_tangent.row(0) * A);
+  for (const int end : {0, 1}) {  // an end moves with u + r x arm
+    const Matrix3 by_rotation = -skew(offset[static_cast<std::size_t>(end)]);
+    compatibility.middleCols<3>(3 + 6 * end) += compatibility.middleCols<3>(6 * end) * by_rotation;
+    chord_shift.middleCols<3>(3 + 6 * end) += chord_shift.middleCols<3>(6 * end) * by_rotation;
   }
 }
 

@@ -1,7 +1,8 @@
-// Kinematics shared by all two-node members: local axes, the basic system without rigid-body motion, and P-Delta.
+// Small-displacement kinematics of two-node members: local axes, and the basic system without rigid-body motion.
 // Basic deformations (OpenSees' order): v = [elongation, rz_i, rz_j, ry_i, ry_j, twist], rotations from the chord.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "base/types.hpp"
@@ -16,18 +17,17 @@ using Matrix6x12 = Eigen::Matrix<double, 6, 12>;
 Matrix3 beam_axes(const Vector3& end_i, const Vector3& end_j, const std::optional<Vector3>& orientation);
 
 struct BeamFrame {
-  double length = 0;            // [m]
+  double length = 0;            // between the member's ends [m]
   Matrix3 axes = Matrix3::Zero();
-  Matrix6x12 compatibility = Matrix6x12::Zero();        // v = compatibility * u, u in global axes
+  std::array<Vector3, 2> offset{Vector3::Zero(), Vector3::Zero()};  // rigid arms from the nodes to the ends, global axes [m]
+  Matrix6x12 compatibility = Matrix6x12::Zero();        // v = compatibility * u, u of the nodes in global axes
   Eigen::Matrix<double, 2, 12> chord_shift = Eigen::Matrix<double, 2, 12>::Zero();  // relative local y, z translation of j
 
-  BeamFrame(const Vector3& end_i, const Vector3& end_j, const Matrix3& axes);
-};
+  // `end_i`, `end_j`: of the member, at the far side of the arms.
+  BeamFrame(const Vector3& end_i, const Vector3& end_j, const Matrix3& axes,
+            const std::array<Vector3, 2>& offset = {Vector3::Zero(), Vector3::Zero()});
 
-// Internal force and tangent in global axes from basic forces q(v) and their tangent dq/dv. With `p_delta` the axial
-// force acts on the chord's shift, N/L * shift at the ends, as in OpenSees' PDelta transformation; its tangent is
-// exact and not symmetric, because that theory has no work-conjugate elongation.
-void to_global(const BeamFrame& frame, bool p_delta, const Vector12& displacement, const Vector6& basic_force,
-               const Matrix6& basic_tangent, Vector12& force, Matrix12* tangent);
+  bool has_offsets() const { return !offset[0].isZero(0) || !offset[1].isZero(0); }
+};
 
 }  // namespace nsframe

@@ -1,6 +1,20 @@
 #include "elements/displacement_beam.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+#include "base/errors.hpp"
+
 namespace nsframe {
+
+namespace {
+
+constexpr int max_inner_iterations = 60;
+constexpr double force_tolerance = 1e-12;  // of released forces, relative to the largest that the member could have there
+
+}  // namespace
 
 Matrix3x5 DisplacementBeams::strain_interpolation(double x, double L) {
   Matrix3x5 B = Matrix3x5::Zero();
@@ -10,41 +24,84 @@ Matrix3x5 DisplacementBeams::strain_interpolation(double x, double L) {
   return B;
 }
 
-void DisplacementBeams::initialize_history(int element, double* history) const {
-  for (int i = 0; i < points(); ++i) {
-    nsframe::initialize_history(*element_at(element).section, section_history(element, history, i));
-  }
+double DisplacementBeams::torsion_stiffness(const FiberMember& member) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < member.sections.size(); ++i) sum += member.rule.weight[i] * member.sections[i]->torsion_stiffness;
+  return sum / member.frame.length;
 }
 
-void DisplacementBeams::respond(int element, const Vector12& displacement, const double* committed, double* trial,
-                                Vector12& force, Matrix12* tangent) const {
-  const Element& e = element_at(element);
-  const double L = e.frame.length;
-  const Vector6 v = e.frame.compatibility * displacement;
-  Vector5 q = Vector5::Zero();
-  Matrix5 k = Matrix5::Zero();
-  for (int i = 0; i < points(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const Matrix3x5 B = strain_interpolation(rule_.position[at], L);
+DisplacementBeams::Basic DisplacementBeams::integrate(const Element& e, const Vector5& deformation, const double* committed,
+                                                      double* trial) const {
+  Basic basic;
+  for (int i = 0; i < e.points(); ++i) {
+    const Matrix3x5 B = strain_interpolation(e.position(i), e.frame.length);
     const SectionResponse response =
-        nsframe::respond(*e.section, B * v.head<5>(), section_history(element, committed, i), section_history(element, trial, i));
-    q += rule_.weight[at] * L * (B.transpose() * response.force);
-    k += rule_.weight[at] * L * (B.transpose() * response.tangent * B);
+        nsframe::respond(e.section(i), B * deformation, e.section_history(committed, i), e.section_history(trial, i));
+    basic.force += e.weight(i) * (B.transpose() * response.force);
+    basic.tangent += e.weight(i) * (B.transpose() * response.tangent * B);
   }
-  const double torsion = e.section->torsion_stiffness / L;
-  Vector6 basic_force;
-  basic_force << q, torsion * v[5];
-  to_global(e.frame, p_delta_, displacement, basic_force, with_torsion(k, torsion), force, tangent);
+  return basic;
 }
 
-std::vector<SectionResult> DisplacementBeams::sections(int element, const Vector12& displacement,
-                                                       const double* history) const {
+DisplacementBeams::Basic DisplacementBeams::release(int element, Vector5& deformation, const Vector5& load,
+                                                    const double* committed, double* trial) const {
   const Element& e = element_at(element);
-  const Vector6 v = e.frame.compatibility * displacement;
+  Vector5 released;
+  for (int i = 0; i < 5; ++i) released[i] = e.releases.basic[static_cast<std::size_t>(i)] ? 1 : 0;
+  double scale = 0;
+  for (int iteration = 0;; ++iteration) {
+    Basic basic = integrate(e, deformation, committed, trial);
+    basic.force += load;
+    const Vector5 unbalance = released.cwiseProduct(basic.force);
+    scale = std::max(scale, basic.force.cwiseAbs().maxCoeff());
+    // rounding of the deformations themselves
+    const Vector5 rounding = basic.tangent.cwiseAbs() * deformation.cwiseAbs() * (4 * std::numeric_limits<double>::epsilon());
+    if (unbalance.cwiseAbs().maxCoeff() <= std::max(force_tolerance * scale, rounding.maxCoeff())) {
+      const Matrix5 R = release_matrix<5>(e.releases, basic.tangent);
+      basic.force = R * basic.force;
+      basic.tangent = R * basic.tangent;
+      return basic;
+    }
+    if (!unbalance.allFinite() || iteration >= max_inner_iterations) {
+      throw ConvergenceError(fmt::format("displacement-based element '{}' does not find the deformation at its released ends", id(element)));
+    }
+    // the identity in the rows and columns of tied ends keeps their deformation
+    Matrix5 k = released.asDiagonal() * basic.tangent * released.asDiagonal();
+    k.diagonal() += Vector5::Ones() - released;
+    deformation -= k.inverse() * unbalance;
+  }
+}
+
+void DisplacementBeams::respond_basic(int element, const Vector6& v, double part, double, const double* committed,
+                                      double* trial, Vector6& force, Matrix6& tangent) const {
+  const Element& e = element_at(element);
+  Vector5 load = Vector5::Zero(), deformation = v.head<5>();
+  if (!e.load.empty()) load = part * clamped_forces(e.load, e.frame.length).head<5>();
+  Basic basic;
+  if (e.releases.any()) {
+    Eigen::Map<Vector5> found(trial);
+    for (int i = 0; i < 5; ++i) {
+      if (e.releases.basic[static_cast<std::size_t>(i)]) deformation[i] = found[i];
+    }
+    basic = release(element, deformation, load, committed, trial);
+    found = deformation;
+  } else {
+    basic = integrate(e, deformation, committed, trial);
+    basic.force += load;
+  }
+  with_torsion(e, basic.force, basic.tangent, v[5], force, tangent);
+}
+
+std::vector<SectionResult> DisplacementBeams::basic_sections(int element, const Vector6& v, double,
+                                                             const double* history) const {
+  const Element& e = element_at(element);
+  Vector5 deformation = v.head<5>();
+  for (int i = 0; i < 5; ++i) {
+    if (e.releases.basic[static_cast<std::size_t>(i)]) deformation[i] = history[i];
+  }
   std::vector<SectionResult> results;
-  for (int i = 0; i < points(); ++i) {
-    const Matrix3x5 B = strain_interpolation(rule_.position[static_cast<std::size_t>(i)], e.frame.length);
-    results.push_back(section_result(element, i, B * v.head<5>(), history));
+  for (int i = 0; i < e.points(); ++i) {
+    results.push_back(section_result(e, i, strain_interpolation(e.position(i), e.frame.length) * deformation, history));
   }
   return results;
 }

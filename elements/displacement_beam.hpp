@@ -9,17 +9,26 @@ class DisplacementBeams : public FiberBeams {
  public:
   using FiberBeams::FiberBeams;
   std::string_view kind() const override { return "displacement_beam"; }
-  void initialize_history(int element, double* history) const override;
-  void respond(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
-               Matrix12* tangent) const override;
-  std::vector<SectionResult> sections(int element, const Vector12& displacement, const double* history) const override;
 
  protected:
-  int head_size() const override { return 0; }
+  void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
+                     double* trial, Vector6& force, Matrix6& tangent) const override;
+  std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
+                                            const double* history) const override;
+  // With releases: the basic deformations as found last, those of the released ends in particular.
+  int head_size(const FiberMember& member) const override { return member.releases.any() ? 5 : 0; }
+  double torsion_stiffness(const FiberMember& member) const override;
 
  private:
+  struct Basic {
+    Vector5 force = Vector5::Zero();
+    Matrix5 tangent = Matrix5::Zero();
+  };
   // Section deformation (e0, kz, ky) at x in [0, 1] from the first five basic deformations.
   static Matrix3x5 strain_interpolation(double x, double length);
+  Basic integrate(const Element& element, const Vector5& deformation, const double* committed, double* trial) const;
+  // Finds the deformations at released ends that leave no force there, from a first guess in `deformation`.
+  Basic release(int element, Vector5& deformation, const Vector5& load, const double* committed, double* trial) const;
 };
 
 }  // namespace nsframe

@@ -2,43 +2,68 @@
 
 namespace nsframe {
 
+namespace {
+
+// Ratio of bending to shear stiffness, 12 EI / (G A_s L^2); none without a shear area.
+double shear_ratio(double EI, double G, double shear_area, double L) {
+  return shear_area > 0 ? 12 * EI / (G * shear_area * L * L) : 0;
+}
+
+}  // namespace
+
 Matrix6 elastic_basic_stiffness(const ElasticSection& s, double L) {
   Matrix6 k = Matrix6::Zero();
   k(0, 0) = s.E * s.A / L;
-  k(1, 1) = k(2, 2) = 4 * s.E * s.Iz / L;
-  k(1, 2) = k(2, 1) = 2 * s.E * s.Iz / L;
-  k(3, 3) = k(4, 4) = 4 * s.E * s.Iy / L;
-  k(3, 4) = k(4, 3) = 2 * s.E * s.Iy / L;
   k(5, 5) = s.G * s.J / L;
+  const auto bend = [&](int at, double EI, double shear_area) {
+    const double ratio = shear_ratio(EI, s.G, shear_area, L), unit = EI / (L * (1 + ratio));
+    k(at, at) = k(at + 1, at + 1) = (4 + ratio) * unit;
+    k(at, at + 1) = k(at + 1, at) = (2 - ratio) * unit;
+  };
+  bend(1, s.E * s.Iz, s.Ay);
+  bend(3, s.E * s.Iy, s.Az);
   return k;
 }
 
-void ElasticBeams::add(const ElementNodes& nodes, std::string id, const BeamFrame& frame, const ElasticSection& section,
-                       SectionOutline outline) {
-  ElementGroup::add(nodes, std::move(id));
-  elements_.push_back({frame, elastic_basic_stiffness(section, frame.length), section, std::move(outline)});
+ElasticBeams::ElasticBeams(Geometry geometry)
+    : Members(beam_geometry(geometry)), kind_("elastic_beam" + std::string(this->geometry().suffix())) {}
+
+void ElasticBeams::add(const ElementNodes& nodes, std::string id, ElasticMember member) {
+  Element e{std::move(member)};
+  const ElasticSection& s = e.section;
+  const double L = e.frame.length;
+  e.stiffness = elastic_basic_stiffness(s, L);
+  if (!e.load.empty()) e.clamped = -e.stiffness * free_deformations(e.load, L, s.E * s.A, s.E * s.Iz, s.E * s.Iy);
+  if (e.releases.any()) {
+    const Matrix6 release = release_matrix<6>(e.releases, e.stiffness);
+    e.stiffness = (release * e.stiffness).eval();
+    e.clamped = (release * e.clamped).eval();
+  }
+  Members::add(nodes, std::move(id), e.frame, 0, !e.load.empty());
+  elements_.push_back(std::move(e));
 }
 
-void ElasticBeams::respond(int element, const Vector12& displacement, const double*, double*, Vector12& force,
-                           Matrix12* tangent) const {
-  const Element& e = elements_[static_cast<std::size_t>(element)];
-  const Vector6 basic_force = e.stiffness * (e.frame.compatibility * displacement);
-  to_global(e.frame, p_delta_, displacement, basic_force, e.stiffness, force, tangent);
+void ElasticBeams::respond_basic(int element, const Vector6& deformation, double part, double, const double*, double*,
+                                 Vector6& force, Matrix6& tangent) const {
+  const Element& e = element_at(element);
+  tangent = e.stiffness;
+  force.noalias() = tangent * deformation;
+  if (!e.load.empty()) force += part * e.clamped;
 }
 
-ElementShape ElasticBeams::shape(int element) const {
-  const Element& e = elements_[static_cast<std::size_t>(element)];
-  return {true, e.frame.axes, e.frame.length, &e.outline};
-}
+ElementShape ElasticBeams::shape(int element) const { return member_shape(element, &element_at(element).outline); }
 
-std::vector<SectionResult> ElasticBeams::sections(int element, const Vector12& displacement, const double*) const {
-  const Element& e = elements_[static_cast<std::size_t>(element)];
-  const Vector6 q = e.stiffness * (e.frame.compatibility * displacement);
+std::vector<SectionResult> ElasticBeams::basic_sections(int element, const Vector6& deformation, double part,
+                                                        const double*) const {
+  const Element& e = element_at(element);
+  const Vector6 q = e.stiffness * deformation + part * e.clamped;
   std::vector<SectionResult> results;
-  for (const double x : {0.0, 1.0}) {
+  for (const double x : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+    if (e.load.empty() && x > 0 && x < 1) continue;
     SectionResult result;
     result.position = x;
     result.force = Vector3(q[0], (x - 1) * q[1] + x * q[2], (x - 1) * q[3] + x * q[4]);
+    if (!e.load.empty()) result.force += part * section_force(e.load, x, e.frame.length);
     result.deformation = Vector3(result.force[0] / (e.section.E * e.section.A),
                                  result.force[1] / (e.section.E * e.section.Iz),
                                  result.force[2] / (e.section.E * e.section.Iy));

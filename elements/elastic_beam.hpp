@@ -1,36 +1,48 @@
-// Elastic Euler-Bernoulli beam-columns.
+// Elastic beam-columns: Euler-Bernoulli, or Timoshenko where the section has shear areas.
 #pragma once
 
-#include "elements/beam_frame.hpp"
-#include "elements/element_group.hpp"
+#include "elements/member.hpp"
+#include "elements/member_load.hpp"
+#include "elements/releases.hpp"
 
 namespace nsframe {
 
 // Basic stiffness of a prismatic member (6x6).
 Matrix6 elastic_basic_stiffness(const ElasticSection& section, double length);
 
-class ElasticBeams : public ElementGroup {
- public:
-  explicit ElasticBeams(bool p_delta) : p_delta_(p_delta) {}
-  void add(const ElementNodes& nodes, std::string id, const BeamFrame& frame, const ElasticSection& section,
-           SectionOutline outline);
+struct ElasticMember {
+  BeamFrame frame;
+  ElasticSection section;
+  SectionOutline outline = {};
+  MemberLoad load = {};
+  Releases releases = {};
+};
 
-  std::string_view kind() const override { return p_delta_ ? "elastic_beam_p_delta" : "elastic_beam"; }
-  bool linear() const override { return !p_delta_; }
-  bool symmetric() const override { return !p_delta_; }
-  void respond(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
-               Matrix12* tangent) const override;
+class ElasticBeams : public Members {
+ public:
+  explicit ElasticBeams(Geometry geometry);
+  void add(const ElementNodes& nodes, std::string id, ElasticMember member);
+
+  std::string_view kind() const override { return kind_; }
+  const MemberLoad* load(int element) const override { return &element_at(element).load; }
   ElementShape shape(int element) const override;
-  std::vector<SectionResult> sections(int element, const Vector12& displacement, const double* history) const override;
+
+ protected:
+  bool linear_basic() const override { return true; }
+  void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
+                     double* trial, Vector6& force, Matrix6& tangent) const override;
+  // At the ends; of a member with a load also between them.
+  std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
+                                            const double* history) const override;
 
  private:
-  struct Element {
-    BeamFrame frame;
-    Matrix6 stiffness;
-    ElasticSection section;
-    SectionOutline outline;
+  struct Element : ElasticMember {
+    Matrix6 stiffness = Matrix6::Zero();  // with releases condensed
+    Vector6 clamped = Vector6::Zero();    // basic forces of the load at no displacement, likewise
   };
-  bool p_delta_;
+  const Element& element_at(int element) const { return elements_[static_cast<std::size_t>(element)]; }
+
+  std::string kind_;
   std::vector<Element> elements_;
 };
 

@@ -13,15 +13,29 @@
 
 namespace nsframe {
 
+struct MemberLoad;
+
 // End nodes of a two-node element; node -1 is the ground.
 using ElementNodes = std::array<int, 2>;
 
 // What an element looks like, for the output.
 struct ElementShape {
   bool beam = false;              // drawn with Hermite shape functions, else a straight line
+  bool finite = false;            // turns by any amount: its pose says where it is
   Matrix3 axes;                   // rows: local x, y, z in global axes
   double length = 0;              // [m]
+  std::array<Vector3, 2> offset{Vector3::Zero(), Vector3::Zero()};  // from the nodes to the ends [m]
   const SectionOutline* outline = nullptr;  // may be null or empty
+};
+
+// Where an element is at a displacement, for the output.
+struct ElementPose {
+  Matrix3 axes = Matrix3::Identity();  // rows: local x, y, z in global axes
+  std::array<Vector3, 2> arm{Vector3::Zero(), Vector3::Zero()};  // from the nodes to the member's ends [m]
+  // Only of beams that turn by any amount (ElementShape::finite):
+  double length = 0;              // of the chord [m]
+  std::array<Vector3, 2> end{Vector3::Zero(), Vector3::Zero()};       // displacements of the member's ends [m]
+  std::array<Vector3, 2> rotation{Vector3::Zero(), Vector3::Zero()};  // of the end sections from `axes`: rotation vectors in `axes`
 };
 
 // State of one integration point, for the output.
@@ -42,7 +56,8 @@ class ElementGroup {
   const ElementNodes& nodes(int element) const { return nodes_[static_cast<std::size_t>(element)]; }
   const std::string& id(int element) const { return ids_[static_cast<std::size_t>(element)]; }
 
-  // True when force = tangent * displacement with a constant tangent: assembled once, never evaluated again.
+  // True when force = tangent * displacement (beside constant loads) with a constant tangent: assembled once, never
+  // evaluated again.
   virtual bool linear() const = 0;
 
   // False when the tangent is not symmetric (P-Delta).
@@ -57,6 +72,19 @@ class ElementGroup {
     (void)element; (void)committed; (void)trial;
   }
 
+  // The load between the member's ends; null or empty for none. Groups that aren't linear carry `load_factor` times it,
+  // a number in the element's history (null for elements without a load), zero in a virgin one: static analysis brings it
+  // to 1. Linear groups carry all of it: force = tangent * displacement + respond(0).
+  virtual const MemberLoad* load(int element) const { (void)element; return nullptr; }
+  virtual double* load_factor(int element, double* history) const { (void)element; (void)history; return nullptr; }
+
+  // The part of load() that acts in a state with this history.
+  double load_part(int element, const double* history) const {
+    if (linear()) return 1;
+    const double* const factor = load_factor(element, const_cast<double*>(history));
+    return factor ? *factor : 0;
+  }
+
   // Internal force (12) and, if `tangent` is not null, its derivative (12x12), in global axes [N, N m], at the
   // displacement (12) of the element's nodes. `committed` and `trial` are the element's own histories. Throws
   // ConvergenceError when an element's own iterations fail.
@@ -67,6 +95,13 @@ class ElementGroup {
   virtual Matrix12 damping(int element) const { (void)element; return Matrix12::Zero(); }
 
   virtual ElementShape shape(int element) const = 0;
+  // `history` as left by respond() at `displacement`.
+  virtual ElementPose pose(int element, const Vector12& displacement, const double* history) const {
+    (void)displacement; (void)history;
+    ElementPose pose;
+    pose.axes = shape(element).axes;
+    return pose;
+  }
   // Results at the integration points; empty for elements without sections. `history` as left by respond().
   virtual std::vector<SectionResult> sections(int element, const Vector12& displacement, const double* history) const {
     (void)element; (void)displacement; (void)history;

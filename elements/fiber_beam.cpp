@@ -1,26 +1,56 @@
 #include "elements/fiber_beam.hpp"
 
+#include <algorithm>
+
 namespace nsframe {
 
-void FiberBeams::add(const ElementNodes& nodes, std::string id, const BeamFrame& frame,
-                     std::shared_ptr<const FiberSection> section, SectionOutline outline) {
-  ElementGroup::add(nodes, std::move(id));
-  history_begin_.push_back(history_begin_.back() + head_size() + points() * section->history_size);
-  elements_.push_back({frame, std::move(section), std::move(outline)});
+void FiberBeams::add(const ElementNodes& nodes, std::string id, FiberMember member) {
+  Element e{std::move(member)};
+  e.torsion = e.releases.basic[5] ? 0 : torsion_stiffness(e);
+  int size = head_size(e);
+  for (const auto& section : e.sections) {
+    e.section_begin.push_back(size);
+    size += section->history_size;
+  }
+  Members::add(nodes, std::move(id), e.frame, size, !e.load.empty());
+  elements_.push_back(std::move(e));
+}
+
+void FiberBeams::initialize_basic(int element, double* history) const {
+  const Element& e = element_at(element);
+  std::fill_n(history, e.section_begin.front(), 0.0);
+  for (int i = 0; i < e.points(); ++i) nsframe::initialize_history(e.section(i), e.section_history(history, i));
+}
+
+void FiberBeams::start_basic(int element, const double* committed, double* trial) const {
+  std::copy_n(committed, element_at(element).section_begin.front(), trial);
 }
 
 ElementShape FiberBeams::shape(int element) const {
-  const Element& e = element_at(element);
-  return {true, e.frame.axes, e.frame.length, &e.outline};
+  return member_shape(element, &element_at(element).outline);
 }
 
-SectionResult FiberBeams::section_result(int element, int point, const Vector3& deformation,
+int FiberBeams::fibers(int element) const {
+  int count = 0;
+  for (const auto& section : element_at(element).sections) count += section->fibers;
+  return count;
+}
+
+void FiberBeams::with_torsion(const Element& e, const Vector5& basic_force, const Matrix5& basic_tangent, double twist,
+                              Vector6& force, Matrix6& tangent) {
+  force << basic_force, e.torsion * twist;
+  tangent.setZero();
+  tangent.topLeftCorner<5, 5>() = basic_tangent;
+  tangent(5, 5) = e.torsion;
+}
+
+SectionResult FiberBeams::section_result(const Element& e, int point, const Vector3& deformation,
                                          const double* history) const {
-  const FiberSection& section = *element_at(element).section;
-  const double* const committed = section_history(element, history, point);
+  const FiberSection& section = e.section(point);
+  const double* const committed = e.section_history(history, point);
   std::vector<double> scratch(static_cast<std::size_t>(section.history_size));
   SectionResult result;
-  result.position = rule_.position[static_cast<std::size_t>(point)];
+  result.position = e.position(point);
   result.deformation = deformation;
   result.force = nsframe::respond(section, deformation, committed, scratch.data()).force;
   result.peak_strain_ratio = peak_strain_ratio(section, deformation);
@@ -29,11 +59,12 @@ SectionResult FiberBeams::section_result(int element, int point, const Vector3& 
 }
 
 std::vector<FiberPlace> FiberBeams::fiber_places(int element) const {
+  const Element& e = element_at(element);
   std::vector<FiberPlace> places;
-  for (int point = 0; point < points(); ++point) {
-    for (FiberPlace place : nsframe::fiber_places(*element_at(element).section)) {
+  for (int point = 0; point < e.points(); ++point) {
+    for (FiberPlace place : nsframe::fiber_places(e.section(point))) {
       place.point = point;
-      place.position = rule_.position[static_cast<std::size_t>(point)];
+      place.position = e.position(point);
       places.push_back(place);
     }
   }
@@ -41,21 +72,16 @@ std::vector<FiberPlace> FiberBeams::fiber_places(int element) const {
 }
 
 std::vector<FiberState> FiberBeams::fiber_states(int element, const Vector12& displacement, const double* history) const {
+  const Element& e = element_at(element);
   std::vector<FiberState> states;
   const std::vector<SectionResult> results = sections(element, displacement, history);
-  for (int point = 0; point < points(); ++point) {
+  const double* const own = basic_history(element, history);
+  for (int point = 0; point < e.points(); ++point) {
     const Vector3& deformation = results[static_cast<std::size_t>(point)].deformation;
-    const auto at_point = nsframe::fiber_states(*element_at(element).section, deformation, section_history(element, history, point));
+    const auto at_point = nsframe::fiber_states(e.section(point), deformation, e.section_history(own, point));
     states.insert(states.end(), at_point.begin(), at_point.end());
   }
   return states;
-}
-
-Matrix6 with_torsion(const Matrix5& stiffness, double torsion) {
-  Matrix6 all = Matrix6::Zero();
-  all.topLeftCorner<5, 5>() = stiffness;
-  all(5, 5) = torsion;
-  return all;
 }
 
 }  // namespace nsframe

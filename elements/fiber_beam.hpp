@@ -1,12 +1,14 @@
-// What displacement- and force-based fiber beam-columns share: sections at Gauss-Lobatto points and their histories.
+// What displacement- and force-based fiber beam-columns share: sections at integration points, their histories, loads
+// and releases.
 #pragma once
 
 #include <memory>
 
-#include "elements/beam_frame.hpp"
-#include "elements/element_group.hpp"
 #include "elements/fiber_section.hpp"
+#include "elements/member.hpp"
+#include "elements/member_load.hpp"
 #include "elements/quadrature.hpp"
+#include "elements/releases.hpp"
 
 namespace nsframe {
 
@@ -14,51 +16,54 @@ using Matrix3x5 = Eigen::Matrix<double, 3, 5>;
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
-inline constexpr int max_points = 10;  // integration points of a member
+struct FiberMember {
+  BeamFrame frame;
+  Quadrature rule;
+  std::vector<std::shared_ptr<const FiberSection>> sections;  // one a point
+  SectionOutline outline = {};
+  MemberLoad load = {};
+  Releases releases = {};
+};
 
-class FiberBeams : public ElementGroup {
+// A member's own history is: head_size() doubles of the kind, those of the sections.
+class FiberBeams : public Members {
  public:
-  // `points`: 2 to max_points.
-  FiberBeams(bool p_delta, int points) : p_delta_(p_delta), rule_(gauss_lobatto(points)) {}
-  void add(const ElementNodes& nodes, std::string id, const BeamFrame& frame,
-           std::shared_ptr<const FiberSection> section, SectionOutline outline);
+  explicit FiberBeams(Geometry geometry) : Members(beam_geometry(geometry)) {}
+  void add(const ElementNodes& nodes, std::string id, FiberMember member);
 
-  bool linear() const override { return false; }
-  bool symmetric() const override { return !p_delta_; }
-  int history_begin(int element) const override { return history_begin_[static_cast<std::size_t>(element)]; }
+  const MemberLoad* load(int element) const override { return &element_at(element).load; }
   ElementShape shape(int element) const override;
   std::vector<FiberPlace> fiber_places(int element) const override;
   std::vector<FiberState> fiber_states(int element, const Vector12& displacement, const double* history) const override;
-  int points() const { return static_cast<int>(rule_.position.size()); }
-  int fibers(int element) const { return points() * element_at(element).section->fibers; }
+  int fibers(int element) const;
 
  protected:
-  struct Element {
-    BeamFrame frame;
-    std::shared_ptr<const FiberSection> section;
-    SectionOutline outline;
+  struct Element : FiberMember {
+    double torsion = 0;              // GJ/L over the member [N m]
+    std::vector<int> section_begin = {};  // in the member's own history, one a point
+    int points() const { return rule.size(); }
+    const FiberSection& section(int point) const { return *sections[static_cast<std::size_t>(point)]; }
+    double position(int point) const { return rule.position[static_cast<std::size_t>(point)]; }
+    double weight(int point) const { return rule.weight[static_cast<std::size_t>(point)] * frame.length; }  // [m]
+    template <class Double>
+    Double* section_history(Double* history, int point) const {
+      return history + section_begin[static_cast<std::size_t>(point)];
+    }
   };
-  // Doubles that an element keeps before the histories of its sections.
-  virtual int head_size() const = 0;
+  void initialize_basic(int element, double* history) const override;
+  void start_basic(int element, const double* committed, double* trial) const override;
+  // Doubles of its own that an element keeps before the histories of its sections.
+  virtual int head_size(const FiberMember& member) const = 0;
+  virtual double torsion_stiffness(const FiberMember& member) const = 0;
   const Element& element_at(int element) const { return elements_[static_cast<std::size_t>(element)]; }
-  double* section_history(int element, double* history, int point) const {
-    return history + head_size() + point * element_at(element).section->history_size;
-  }
-  const double* section_history(int element, const double* history, int point) const {
-    return history + head_size() + point * element_at(element).section->history_size;
-  }
-  // Section result at a point from its deformation; `history` as committed.
-  SectionResult section_result(int element, int point, const Vector3& deformation, const double* history) const;
-
-  bool p_delta_;
-  Quadrature rule_;
+  // Beside axial force and bending, torsion.
+  static void with_torsion(const Element& element, const Vector5& basic_force, const Matrix5& basic_tangent, double twist,
+                           Vector6& force, Matrix6& tangent);
+  // Section result at a point from its deformation; `history`, the member's own, as committed.
+  SectionResult section_result(const Element& element, int point, const Vector3& deformation, const double* history) const;
 
  private:
   std::vector<Element> elements_;
-  std::vector<int> history_begin_{0};
 };
-
-// The stiffness of the five bending and axial basic DOFs with torsion beside it.
-Matrix6 with_torsion(const Matrix5& stiffness, double torsion);
 
 }  // namespace nsframe

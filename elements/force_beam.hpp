@@ -10,24 +10,28 @@ class ForceBeams : public FiberBeams {
  public:
   using FiberBeams::FiberBeams;
   std::string_view kind() const override { return "force_beam"; }
-  void initialize_history(int element, double* history) const override;
-  void start_step(int element, const double* committed, double* trial) const override;
-  void respond(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
-               Matrix12* tangent) const override;
-  std::vector<SectionResult> sections(int element, const Vector12& displacement, const double* history) const override;
 
  protected:
+  void initialize_basic(int element, double* history) const override;
+  void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
+                     double* trial, Vector6& force, Matrix6& tangent) const override;
+  std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
+                                            const double* history) const override;
   // Basic forces (5), element tangent (25), then for each point: deformation (3), force (3), tangent (9).
-  int head_size() const override { return 30 + 15 * points(); }
+  int head_size(const FiberMember& member) const override { return 30 + 15 * member.rule.size(); }
+  double torsion_stiffness(const FiberMember& member) const override;
 
  private:
   using PointVectors = std::array<Vector3, max_points>;
   using PointMatrices = std::array<Matrix3, max_points>;
-  void balance(const Element& element, const Vector5& deformation, double* data, PointMatrices& flexibility) const;
+  static Vector3 section_force(const Element& element, const Vector5& basic_force, double part, int point);
+  void balance(const Element& element, const Vector5& deformation, double part, double* head,
+               PointMatrices& flexibility) const;
   double move_sections(const Element& element, const PointVectors& start, const PointVectors& correction, double length,
-                       const double* committed, double* trial) const;
+                       double part, const double* committed, double* trial) const;
   // `rounding`: of the basic deformations [m, rad], for elements that do not deform at all.
-  void find_sections(int element, const Vector5& deformation, double rounding, const double* committed, double* trial) const;
+  void find_sections(int element, const Vector5& deformation, double part, double rounding, const double* committed,
+                     double* trial) const;
 };
 
 }  // namespace nsframe

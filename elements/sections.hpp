@@ -19,6 +19,8 @@ struct ElasticSection {
   double Iz = 0;  // [m4] bending in the local x-y plane
   double Iy = 0;  // [m4] bending in the local x-z plane
   double J = 0;   // [m4] Saint-Venant torsion constant
+  double Ay = 0;  // [m2] shear area for forces along local y; 0: rigid in shear
+  double Az = 0;  // [m2] the same along local z
 };
 
 struct FiberDescription {

@@ -13,6 +13,13 @@ void Springs::add(const ElementNodes& nodes, std::string id, SpringProperties pr
     element.deformation.block<3, 3>(block, block) = -axes;
     element.deformation.block<3, 3>(block, block + 6) = axes;
   }
+  // the shear springs join the ends of rigid arms: u_y + arm rz, u_z - arm ry
+  const Vector2 arm_i = element.properties.length * element.properties.shear_distance;
+  const Vector2 arm_j = arm_i - Vector2::Constant(element.properties.length);
+  element.deformation.row(1).segment<3>(3) -= arm_i[0] * axes.row(2);
+  element.deformation.row(1).segment<3>(9) += arm_j[0] * axes.row(2);
+  element.deformation.row(2).segment<3>(3) += arm_i[1] * axes.row(1);
+  element.deformation.row(2).segment<3>(9) -= arm_j[1] * axes.row(1);
   elements_.push_back(std::move(element));
 }
 
@@ -48,7 +55,9 @@ Matrix12 Springs::damping(int element) const {
 }
 
 ElementShape Springs::shape(int element) const {
-  return {false, elements_[static_cast<std::size_t>(element)].properties.axes, 0, nullptr};
+  ElementShape shape;
+  shape.axes = elements_[static_cast<std::size_t>(element)].properties.axes;
+  return shape;
 }
 
 }  // namespace nsframe

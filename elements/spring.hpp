@@ -1,4 +1,5 @@
-// Zero-length springs and dashpots in six directions, between two nodes or a node and the ground.
+// Springs and dashpots in six directions along local axes: of no length, between two nodes or a node and the ground, or
+// links of some length, whose shear springs sit at a given place between the nodes.
 #pragma once
 
 #include <optional>
@@ -12,6 +13,8 @@ struct SpringProperties {
   Matrix3 axes = Matrix3::Identity();             // rows: local axes in global axes
   Vector6 stiffness = Vector6::Zero();            // [N/m], [N m/rad]
   Vector6 damping = Vector6::Zero();              // [N s/m], [N m s/rad]
+  double length = 0;                              // [m] from the first node to the second, along local x
+  Vector2 shear_distance = Vector2::Zero();       // place of the springs along y and z, in [0, 1] of the length
   std::array<std::optional<UniaxialLaw>, 6> law;  // force [N, N m] by displacement [m, rad]; replaces the stiffness
 };
 

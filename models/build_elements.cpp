@@ -27,15 +27,51 @@ bool couples(const FiberSection& section) {
   return coupled(0, 1) || coupled(0, 2) || coupled(1, 2);
 }
 
+// Rows: local axes with x along `x` and y in the plane of `x` and `in_plane`, on the side of the latter.
+Matrix3 axes_in_plane(const Vector3& x, const Vector3& in_plane) {
+  if (!(x.norm() > 0)) throw std::invalid_argument("zero length");
+  Matrix3 axes;
+  axes.row(0) = x.normalized();
+  const Vector3 z = axes.row(0).transpose().cross(in_plane);
+  if (!(z.norm() > 1e-6 * in_plane.norm())) throw std::invalid_argument("the vector in the x-y plane is parallel to x");
+  axes.row(2) = z.normalized();
+  axes.row(1) = axes.row(2).cross(axes.row(0));
+  return axes;
+}
+
+// Four elastic fibers with the area and second moments of a section of constants: the same section exactly.
+std::shared_ptr<const FiberSection> elastic_fibers(const ElasticSection& s) {
+  const double y = std::sqrt(s.Iz / s.A), z = std::sqrt(s.Iy / s.A);
+  std::vector<Fiber> fibers;
+  for (const auto& [at_y, at_z] : {std::pair{-y, -z}, {y, -z}, {-y, z}, {y, z}}) fibers.push_back({at_y, at_z, s.A / 4, Elastic{s.E}});
+  return std::make_shared<FiberSection>(fibers, s.G * s.J);
+}
+
+MassSection mass_section(const std::vector<Fiber>& fibers) {
+  MassSection m;
+  for (const Fiber& f : fibers) {
+    m.A += f.area;
+    m.Iz += f.area * f.y * f.y;
+    m.Iy += f.area * f.z * f.z;
+  }
+  return m;
+}
+
 Library::Section resolve(const SectionDescription& section, const Materials& materials,
                          Diagnostics& diagnostics) {
-  Library::Section resolved{&section, {}, nullptr};
+  Library::Section resolved{&section, {}, nullptr, {}};
   if (const auto* elastic = std::get_if<ElasticSection>(&section.kind)) {
     resolved.elastic = *elastic;
     for (const auto& [value, name] : {std::pair{elastic->E, "E"}, {elastic->G, "G"}, {elastic->A, "A"},
                                       {elastic->Iz, "Iz"}, {elastic->Iy, "Iy"}, {elastic->J, "J"}}) {
       if (!(value > 0)) diagnostics.error(section.at, fmt::format("section '{}': {} must be positive", section.name, name));
     }
+    for (const auto& [value, name] : {std::pair{elastic->Ay, "Ay"}, {elastic->Az, "Az"}}) {
+      if (!(value >= 0)) diagnostics.error(section.at, fmt::format("section '{}': {} must not be negative", section.name, name));
+    }
+    resolved.is_elastic = true;
+    resolved.fibers = elastic_fibers(*elastic);
+    resolved.mass = {elastic->A, elastic->Iz, elastic->Iy};
     return resolved;
   }
   const auto& description = std::get<FiberSectionDescription>(section.kind);
@@ -63,6 +99,7 @@ Library::Section resolve(const SectionDescription& section, const Materials& mat
   if (const ElasticSection& e = resolved.elastic; e.A < 0 || e.Iz < 0 || e.Iy < 0) {
     diagnostics.error(section.at, fmt::format("section '{}': more is displaced than there is", section.name));
   }
+  resolved.mass = mass_section(fibers);
   resolved.fibers = std::move(built);
   return resolved;
 }
@@ -99,8 +136,9 @@ Group& GroupBuilder::group(const std::string& key, Arguments&&... arguments) {
   return static_cast<Group&>(*groups_.back().second);
 }
 
-void GroupBuilder::add(const ElementDescription& element, const ElementNodes& nodes, const Vector3& end_i,
-                       const Vector3& end_j, const std::string& id) {
+void GroupBuilder::add(const ElementDescription& element, const ElementNodes& nodes, const Vector3& node_i,
+                       const Vector3& node_j, const std::string& id, const std::vector<const LoadDescription*>& loads) {
+  const Vector3 end_i = node_i + element.offset[0], end_j = node_j + element.offset[1];
   Matrix3 axes;
   try {
     axes = beam_axes(end_i, end_j, element.orientation);
@@ -108,45 +146,122 @@ void GroupBuilder::add(const ElementDescription& element, const ElementNodes& no
     diagnostics_.error(element.at, fmt::format("element '{}': {}", id, problem.what()));
     return;
   }
-  const BeamFrame frame(end_i, end_j, axes);
+  const BeamFrame frame(end_i, end_j, axes, element.offset);
   if (element.kind == ElementKind::truss || element.kind == ElementKind::cable) {
-    add_truss(element, nodes, frame, id);
+    for (const LoadDescription* load : loads) {
+      diagnostics_.error(load->at, fmt::format("element '{}' is a truss or cable, which carries no load between its ends", id));
+    }
+    return add_truss(element, nodes, frame, id);
+  }
+  const Library::Section* section = find(library_.sections, element.section, "section", diagnostics_);
+  if (!section) return;
+  Beam beam{element, id, nodes, frame, section, {}};
+  if (!loads.empty() && element.geometry == Geometry::corotational) {
+    return diagnostics_.error(loads.front()->at, fmt::format("element '{}' is corotational: loads between its ends are not carried; "
+                                                             "use linear or p-delta, or loads at nodes", id));
+  }
+  for (const LoadDescription* load : loads) {
+    const auto local = [&](const Vector3& v) { return load->local ? v : Vector3(axes * v); };
+    beam.load.uniform += local(load->uniform);
+    if (!load->force.isZero(0)) beam.load.points.push_back({load->position, local(load->force)});
+  }
+  add_mass(beam);
+  if (element.kind == ElementKind::elastic_beam) {
+    add_elastic(beam);
   } else {
-    add_beam(element, nodes, frame, id);
+    add_fiber(beam);
   }
 }
 
-void GroupBuilder::add_beam(const ElementDescription& element, const ElementNodes& nodes, const BeamFrame& frame,
-                            const std::string& id) {
-  const Library::Section* section = find(library_.sections, element.section, "section", diagnostics_);
-  if (!section) return;
-  const bool p_delta = element.geometry == Geometry::p_delta;
-  const SectionOutline& outline = section->description->outline;
-  if (element.kind == ElementKind::elastic_beam) {
-    if (section->fibers && couples(*section->fibers)) {
-      diagnostics_.error(element.section.at,
-                         fmt::format("element '{}' is elastic, but the fibers of section '{}' are not centred on their "
-                                     "principal axes; use a fiber element, or give A, Iz, Iy, J",
-                                     id, element.section.name));
-      return;
+void GroupBuilder::error(const Beam& beam, const std::string& message) {
+  diagnostics_.error(beam.element.at, fmt::format("element '{}': {}", beam.id, message));
+}
+
+// The matrix of the member's own mass, and its weight as a load along the member.
+void GroupBuilder::add_mass(Beam& beam) {
+  const MemberMass& mass = beam.element.mass;
+  if (!mass.any()) return;
+  const auto& released = beam.element.releases.basic;
+  if (mass.consistent && (released[0] || released[5])) {
+    return error(beam, "a consistent mass needs the axial force and the torsion of both ends tied; use a lumped mass");
+  }
+  const double L = beam.frame.length;
+  const ElasticSection& s = beam.section->elastic;
+  MassSection section = beam.section->mass;
+  if (s.Ay > 0) section.shear_ratio_y = 12 * s.E * s.Iz / (s.G * s.Ay * L * L);
+  if (s.Az > 0) section.shear_ratio_z = 12 * s.E * s.Iy / (s.G * s.Az * L * L);
+  Matrix12 to_local = Matrix12::Zero();
+  for (int block = 0; block < 12; block += 3) to_local.block<3, 3>(block, block) = beam.frame.axes;
+  to_local = to_local * member_ends(beam.element.releases, elastic_basic_stiffness(s, L), beam.frame);
+  const double per_length = mass_per_length(mass, section);
+  // loads between the ends of corotational members would have to turn with them: their weight hangs at the nodes
+  const bool at_nodes = beam.element.geometry == Geometry::corotational;
+  masses_.push_back({beam.id, beam.nodes, to_local.transpose() * member_mass_matrix(mass, section, L) * to_local,
+                     at_nodes ? per_length * L / 2 : 0});
+  if (!at_nodes) beam.load.uniform += beam.frame.axes * gravity_ * per_length;
+}
+
+void GroupBuilder::add_elastic(const Beam& beam) {
+  const ElementDescription& element = beam.element;
+  const Library::Section& section = *beam.section;
+  if (!section.is_elastic && couples(*section.fibers)) {
+    diagnostics_.error(element.section.at,
+                       fmt::format("element '{}' is elastic, but the fibers of section '{}' are not centred on their "
+                                   "principal axes; use a fiber element, or give A, Iz, Iy, J",
+                                   beam.id, element.section.name));
+    return;
+  }
+  if (element.integration.rule != Integration{}.rule) return error(beam, "an elastic beam has no integration points");
+  if (!element.sections.empty()) return error(beam, "an elastic beam has one section throughout");
+  group<ElasticBeams>(fmt::format("elastic {}", static_cast<int>(element.geometry)), element.geometry)
+      .add(beam.nodes, beam.id, {beam.frame, section.elastic, section.description->outline, beam.load, element.releases});
+}
+
+// Sections of a fiber beam by integration point; empty after an error.
+std::vector<const Library::Section*> GroupBuilder::sections_at_points(const Beam& beam, int points) {
+  const std::vector<Reference>& named = beam.element.sections;
+  const auto count = static_cast<std::size_t>(points);
+  if (named.empty()) return std::vector<const Library::Section*>(count, beam.section);
+  if (named.size() != 3 && named.size() != count) {
+    error(beam, fmt::format("{} sections, must be 3 (first point, interior, last) or {}, one a point", named.size(), points));
+    return {};
+  }
+  std::vector<const Library::Section*> sections;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t which = named.size() == count ? i : i == 0 ? 0 : i + 1 == count ? 2 : 1;
+    sections.push_back(find(library_.sections, named[which], "section", diagnostics_));
+    if (!sections.back()) return {};
+  }
+  return sections;
+}
+
+void GroupBuilder::add_fiber(const Beam& beam) {
+  const ElementDescription& element = beam.element;
+  FiberMember member{beam.frame, {}, {}, beam.section->description->outline, beam.load, element.releases};
+  try {
+    member.rule = make_quadrature(element.integration, element.points, beam.frame.length);
+  } catch (const std::invalid_argument& problem) {
+    return error(beam, problem.what());
+  }
+  bool has_fibers = false;
+  for (const Library::Section* section : sections_at_points(beam, member.rule.size())) {
+    if (section->elastic.Ay > 0 || section->elastic.Az > 0) {
+      return error(beam, fmt::format("section '{}' has shear areas, but only elastic beams deform in shear", section->description->name));
     }
-    group<ElasticBeams>(fmt::format("elastic {}", p_delta), p_delta).add(nodes, id, frame, section->elastic, outline);
-    return;
+    has_fibers = has_fibers || !section->is_elastic;
+    member.sections.push_back(section->fibers);
   }
-  if (!section->fibers) {
+  if (member.sections.empty()) return;
+  if (!has_fibers) {
     diagnostics_.error(element.section.at, fmt::format("element '{}' needs fibers, section '{}' has elastic constants only",
-                                                       id, element.section.name));
+                                                       beam.id, element.section.name));
     return;
   }
-  if (element.points < 3 || element.points > 10) {
-    diagnostics_.error(element.at, fmt::format("element '{}': points = {}, must lie in [3, 10]", id, element.points));
-    return;
-  }
-  const std::string key = fmt::format("fiber {} {} {}", static_cast<int>(element.kind), p_delta, element.points);
+  const std::string key = fmt::format("fiber {} {}", static_cast<int>(element.kind), static_cast<int>(element.geometry));
   if (element.kind == ElementKind::displacement_beam) {
-    group<DisplacementBeams>(key, p_delta, element.points).add(nodes, id, frame, section->fibers, outline);
+    group<DisplacementBeams>(key, element.geometry).add(beam.nodes, beam.id, std::move(member));
   } else {
-    group<ForceBeams>(key, p_delta, element.points).add(nodes, id, frame, section->fibers, outline);
+    group<ForceBeams>(key, element.geometry).add(beam.nodes, beam.id, std::move(member));
   }
 }
 
@@ -154,11 +269,15 @@ void GroupBuilder::add_truss(const ElementDescription& element, const ElementNod
                              const std::string& id) {
   const UniaxialLaw* law = find(library_.materials, element.material, "material", diagnostics_);
   if (!law) return;
+  if (frame.has_offsets()) {
+    diagnostics_.error(element.at, fmt::format("element '{}': a {} has no offsets, they would bend it", id,
+                                               element.kind == ElementKind::cable ? "cable" : "truss"));
+    return;
+  }
   if (!(element.area > 0)) {
     diagnostics_.error(element.at, fmt::format("element '{}': the area must be positive", id));
     return;
   }
-  const bool p_delta = element.geometry == Geometry::p_delta;
   Trusses::Kind kind = is_linear(*law) && element.pretension == 0 ? Trusses::Kind::linear : Trusses::Kind::nonlinear;
   if (element.kind == ElementKind::cable) {
     kind = Trusses::Kind::cable;
@@ -167,12 +286,25 @@ void GroupBuilder::add_truss(const ElementDescription& element, const ElementNod
     }
     if (element.pretension < 0) diagnostics_.error(element.at, fmt::format("cable '{}': negative pretension", id));
   }
-  group<Trusses>(fmt::format("truss {} {}", static_cast<int>(kind), p_delta), kind, p_delta)
+  group<Trusses>(fmt::format("truss {} {}", static_cast<int>(kind), static_cast<int>(element.geometry)), kind, element.geometry)
       .add(nodes, id, frame, *law, element.area, element.pretension);
 }
 
-void GroupBuilder::add(const SpringDescription& spring, const ElementNodes& nodes, const std::string& id) {
+void GroupBuilder::add(const SpringDescription& spring, const ElementNodes& nodes, const Vector3& end_i, const Vector3& end_j,
+                       const std::string& id) {
   SpringProperties properties;
+  try {
+    if (spring.shear_distance) {
+      properties.length = (end_j - end_i).norm();
+      properties.shear_distance = *spring.shear_distance;
+      properties.axes = spring.in_plane ? axes_in_plane(end_j - end_i, *spring.in_plane) : beam_axes(end_i, end_j, {});
+    } else if (spring.in_plane) {
+      properties.axes = axes_in_plane(spring.x, *spring.in_plane);
+    }
+  } catch (const std::invalid_argument& problem) {
+    diagnostics_.error(spring.at, fmt::format("spring '{}': {}", id, problem.what()));
+    return;
+  }
   properties.stiffness = spring.stiffness;
   properties.damping = spring.damping;
   bool linear = true;

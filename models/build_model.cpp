@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include "models/build_constants.hpp"
 #include "models/build_contacts.hpp"
 #include "models/build_elements.hpp"
 #include "models/constraints.hpp"
@@ -35,7 +36,7 @@ class ModelBuilder {
  public:
   ModelBuilder(const ModelDescription& description, Diagnostics& diagnostics)
       : description_(description), diagnostics_(diagnostics), library_(build_library(description, diagnostics)),
-        groups_(library_, diagnostics) {}
+        groups_(library_, description.gravity.acceleration, diagnostics) {}
 
   Model build() {
     for (const StructureDescription& structure : description_.structures) add_nodes(structure);
@@ -46,6 +47,8 @@ class ModelBuilder {
       add_masses(structure);
       add_slabs(structure);
     }
+    concentrated_mass_ = model_.nodal_mass;
+    share_member_masses(model_, groups_.masses());
     model_.groups = groups_.take();
     lay_out_histories();
     find_structures();
@@ -55,8 +58,8 @@ class ModelBuilder {
     model_.contacts = build_contacts(description_, model_, diagnostics_);
     require_freedom();
     diagnostics_.throw_if_any();
-    assemble_constants();
-    add_motions();
+    assemble_constants(model_, concentrated_mass_, groups_.masses(), description_.gravity);
+    add_motions(model_, description_.motions);
     build_stages(description_, model_, diagnostics_);
     diagnostics_.throw_if_any();
     return std::move(model_);
@@ -64,6 +67,7 @@ class ModelBuilder {
 
  private:
   void add_nodes(const StructureDescription& structure);
+  std::map<std::string, std::vector<const LoadDescription*>> loads_by_element(const StructureDescription& structure);
   void add_elements(const StructureDescription& structure);
   void add_constraints(const StructureDescription& structure);
   void add_supports(const StructureDescription& structure);
@@ -75,9 +79,7 @@ class ModelBuilder {
   VectorX resistance() const;
   void number_dofs();
   void require_freedom();
-  void assemble_constants();
   void set_initial_values(const StructureDescription& structure);
-  void add_motions();
   int node(const StructureDescription& structure, const Reference& reference);
   bool new_id(const std::string& id, const Location& at, const char* what);
 
@@ -93,6 +95,7 @@ class ModelBuilder {
   std::vector<bool> mentioned_;                    // nodes that something refers to
   std::vector<bool> fixed_;                        // full DOFs
   std::vector<NodeConstraint> constraints_;
+  VectorX concentrated_mass_;                      // of nodes, without the members' own
 };
 
 int ModelBuilder::node(const StructureDescription& structure, const Reference& reference) {
@@ -132,13 +135,37 @@ void ModelBuilder::add_nodes(const StructureDescription& structure) {
   model_.nodal_mass = VectorX::Zero(static_cast<Eigen::Index>(fixed_.size()));
 }
 
+// The loads of a structure by the element that they act on.
+std::map<std::string, std::vector<const LoadDescription*>> ModelBuilder::loads_by_element(const StructureDescription& structure) {
+  std::set<std::string> known;
+  for (const ElementDescription& element : structure.elements) known.insert(element.id);
+  std::map<std::string, std::vector<const LoadDescription*>> loads;
+  for (const LoadDescription& load : structure.loads) {
+    if (!(load.position >= 0 && load.position <= 1)) {
+      diagnostics_.error(load.at, fmt::format("a load at {} of the beam's length, must lie in [0, 1]", load.position));
+    }
+    for (const Reference& element : load.elements) {
+      if (known.count(element.name)) {
+        loads[element.name].push_back(&load);
+      } else {
+        diagnostics_.error(element.at, fmt::format("element '{}' is not defined in structure '{}'{}", element.name, structure.name,
+                                                   did_you_mean(element.name, {known.begin(), known.end()})));
+      }
+    }
+  }
+  return loads;
+}
+
 void ModelBuilder::add_elements(const StructureDescription& structure) {
+  const auto loads = loads_by_element(structure);
   for (const ElementDescription& element : structure.elements) {
     const std::string id = structure.name + "." + element.id;
     const ElementNodes nodes{node(structure, element.node_i), node(structure, element.node_j)};
     if (!new_id(id, element.at, "element") || nodes[0] < 0 || nodes[1] < 0) continue;
     const auto& position = model_.nodes.position;
-    groups_.add(element, nodes, position[static_cast<std::size_t>(nodes[0])], position[static_cast<std::size_t>(nodes[1])], id);
+    const auto acting = loads.find(element.id);
+    groups_.add(element, nodes, position[static_cast<std::size_t>(nodes[0])], position[static_cast<std::size_t>(nodes[1])], id,
+                acting == loads.end() ? std::vector<const LoadDescription*>{} : acting->second);
   }
   for (const SpringDescription& spring : structure.springs) {
     const std::string id = structure.name + "." + spring.id;
@@ -147,7 +174,12 @@ void ModelBuilder::add_elements(const StructureDescription& structure) {
     if ((spring.stiffness.array() < 0).any() || (spring.damping.array() < 0).any()) {
       diagnostics_.error(spring.at, fmt::format("spring '{}': negative stiffness or damping", id));
     }
-    groups_.add(spring, nodes, id);
+    if (spring.shear_distance && !spring.node_j) {
+      diagnostics_.error(spring.at, fmt::format("link '{}' needs two nodes", id));
+      continue;
+    }
+    const auto place = [this](int at) { return at < 0 ? Vector3(Vector3::Zero()) : model_.nodes.position[static_cast<std::size_t>(at)]; };
+    groups_.add(spring, nodes, place(nodes[0]), place(nodes[1]), id);
   }
 }
 
@@ -164,7 +196,7 @@ void ModelBuilder::add_constraints(const StructureDescription& structure) {
       const Vector3 arm = model_.nodes.position[static_cast<std::size_t>(slave)] - model_.nodes.position[static_cast<std::size_t>(master)];
       switch (item.kind) {
         case ConstraintKind::rigid_body: constraints_.push_back(rigid_body_constraint(master, slave, arm, item.at)); break;
-        case ConstraintKind::diaphragm: constraints_.push_back(diaphragm_constraint(master, slave, arm, item.at)); break;
+        case ConstraintKind::diaphragm: constraints_.push_back(diaphragm_constraint(master, slave, arm, item.normal, item.at)); break;
         case ConstraintKind::equal_dof: constraints_.push_back(equal_dof_constraint(master, slave, item.dofs, item.at)); break;
       }
     }
@@ -318,36 +350,6 @@ void ModelBuilder::require_freedom() {
                                                      : "nothing can move: supports hold every degree of freedom");
 }
 
-void ModelBuilder::assemble_constants() {
-  const SparseRows& T = model_.dofs.transformation;
-  const SparseRows& Tt = model_.dofs.transformation_transposed;
-  const SparseRows weighted = model_.nodal_mass.asDiagonal() * T;
-  model_.mass = (Tt * weighted).pruned();
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const auto& group : model_.groups) {
-    for (int e = 0; e < group->size(); ++e) {
-      const Matrix12 c = group->damping(e);
-      if (c.isZero(0)) continue;
-      for (int i = 0; i < 12; ++i) {
-        for (int j = 0; j < 12; ++j) {
-          const int ni = group->nodes(e)[static_cast<std::size_t>(i / 6)], nj = group->nodes(e)[static_cast<std::size_t>(j / 6)];
-          if (ni >= 0 && nj >= 0 && c(i, j) != 0) entries.emplace_back(6 * ni + i % 6, 6 * nj + j % 6, c(i, j));
-        }
-      }
-    }
-  }
-  SparseRows full(model_.dofs.full, model_.dofs.full);
-  full.setFromTriplets(entries.begin(), entries.end());
-  model_.viscous_damping = SparseMatrix(Tt * SparseRows(full * T));
-  VectorX gravity = model_.nodal_mass;
-  for (int i = 0; i < model_.nodes.size(); ++i) {
-    gravity.segment<3>(6 * i).array() *= description_.gravity.acceleration.array();
-    gravity.segment<3>(6 * i + 3).setZero();
-  }
-  model_.gravity_load = Tt * gravity;
-  model_.gravity_statically_first = description_.gravity.statically_first;
-}
-
 void ModelBuilder::set_initial_values(const StructureDescription& structure) {
   const auto set = [&](const std::vector<InitialDescription>& items, VectorX& values) {
     for (const InitialDescription& item : items) {
@@ -367,27 +369,7 @@ void ModelBuilder::set_initial_values(const StructureDescription& structure) {
   set(structure.initial_velocities, model_.initial_velocity);
 }
 
-void ModelBuilder::add_motions() {
-  for (const MotionDescription& item : description_.motions) {
-    GroundMotion motion{item.source, item.direction, item.dt, item.acceleration, {}};
-    motion.prepare();
-    VectorX load = model_.nodal_mass;
-    for (int i = 0; i < model_.nodes.size(); ++i) {
-      load.segment<3>(6 * i).array() *= -item.direction.array();
-      load.segment<3>(6 * i + 3).setZero();
-    }
-    model_.motion_load.push_back(model_.dofs.transformation_transposed * load);
-    model_.motions.push_back(std::move(motion));
-  }
-}
-
 }  // namespace
-
-double Model::total_mass() const {
-  double sum = 0;
-  for (int i = 0; i < nodes.size(); ++i) sum += nodal_mass[6 * i];
-  return sum;
-}
 
 Model build_model(const ModelDescription& description, Diagnostics& diagnostics) {
   return ModelBuilder(description, diagnostics).build();

@@ -51,11 +51,15 @@ NodeConstraint rigid_body_constraint(int master, int slave, const Vector3& arm, 
   return c;
 }
 
-NodeConstraint diaphragm_constraint(int master, int slave, const Vector3& arm, const Location& at) {
-  NodeConstraint c{at, master, slave, {true, true, false, false, false, true}, Matrix6::Zero()};
-  c.follows(0, 0) = c.follows(1, 1) = c.follows(5, 5) = 1;
-  c.follows(0, 5) = -arm.y();
-  c.follows(1, 5) = arm.x();
+NodeConstraint diaphragm_constraint(int master, int slave, const Vector3& arm, int normal, const Location& at) {
+  NodeConstraint c{at, master, slave, {}, Matrix6::Zero()};
+  const int first = (normal + 1) % 3, second = (normal + 2) % 3, turn = 3 + normal;
+  for (const int dof : {first, second, turn}) {
+    c.constrained[static_cast<std::size_t>(dof)] = true;
+    c.follows(dof, dof) = 1;
+  }
+  c.follows(first, turn) = -arm[second];
+  c.follows(second, turn) = arm[first];
   return c;
 }
 

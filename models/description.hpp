@@ -10,6 +10,10 @@
 
 #include "base/diagnostics.hpp"
 #include "base/types.hpp"
+#include "elements/member_geometry.hpp"
+#include "elements/member_mass.hpp"
+#include "elements/quadrature.hpp"
+#include "elements/releases.hpp"
 #include "elements/sections.hpp"
 #include "materials/uniaxial.hpp"
 #include "models/static_stage.hpp"
@@ -42,7 +46,6 @@ struct MassDescription {
 };
 
 enum class ElementKind { elastic_beam, displacement_beam, force_beam, truss, cable };
-enum class Geometry { linear, p_delta };
 
 // A member between two nodes.
 struct ElementDescription {
@@ -54,13 +57,32 @@ struct ElementDescription {
   Reference material;                  // truss and cable only
   double area = 0;                     // [m2], truss and cable only
   double pretension = 0;               // [N], truss and cable only, positive in tension
-  int points = 5;                      // Gauss-Lobatto points of a fiber beam, 3 to 10
+  int points = 5;                      // integration points of a fiber beam
+  Integration integration;             // fiber beams only
+  // Fiber beams only: sections at the integration points, one each, or three (first point, interior, last); `section`
+  // then only gives the outline. Empty: `section` throughout.
+  std::vector<Reference> sections;
+  Releases releases;                   // beams only
+  MemberMass mass;                     // beams only
   Geometry geometry = Geometry::linear;
+  std::array<Vector3, 2> offset{Vector3::Zero(), Vector3::Zero()};  // beams: rigid arms from the nodes to the member's
+                                                                    // ends, global axes [m]
   std::optional<Vector3> orientation;  // a vector in the local x-z plane (OpenSees' vecxz); default: see beam_axes()
 };
 
-// Springs and dashpots between two nodes at (nominally) one place, or between a node and the ground (node_j empty),
-// in six directions along `axes`. A direction with a law uses it (force against displacement) instead of `stiffness`.
+// A static load on beams, per length or at one place, along global or the beams' local axes.
+struct LoadDescription {
+  Location at;
+  std::vector<Reference> elements;
+  bool local = false;
+  Vector3 uniform = Vector3::Zero();  // [N/m] of the beam's length
+  Vector3 force = Vector3::Zero();    // [N]
+  double position = 0.5;              // of `force` along the beam, in [0, 1]
+};
+
+// Springs and dashpots between two nodes at (nominally) one place, or between a node and the ground (node_j empty), or, as
+// a link, between two nodes apart, in six directions along local axes. A direction with a law uses it (force against
+// displacement) instead of `stiffness`.
 struct SpringDescription {
   std::string id;
   Location at;
@@ -68,12 +90,18 @@ struct SpringDescription {
   std::optional<Reference> node_j;
   Vector6 stiffness = Vector6::Zero();                    // [N/m], [N m/rad]
   Vector6 damping = Vector6::Zero();                      // [N s/m], [N m s/rad]
+  // Local axes: x, and a vector in the local x-y plane (OpenSees' -orient); of a link, whose x runs to node_j, only the
+  // latter counts, by default that of a beam. Default: the global axes.
+  Vector3 x = Vector3::UnitX();
+  std::optional<Vector3> in_plane;
+  // Of a link: place of its shear springs along local y and z, in [0, 1] from node_i.
+  std::optional<Vector2> shear_distance;
   std::array<std::optional<Reference>, 6> law;            // material: "stress" is force [N, N m], "strain" displacement
 };
 
 enum class ConstraintKind {
   rigid_body,  // all six DOFs of the slaves follow the master (rigid slab, rigid link)
-  diaphragm,   // ux, uy, rz of the slaves follow the master; normal is the global z axis
+  diaphragm,   // displacements in its plane and the rotation about its normal follow the master
   equal_dof    // the listed DOFs of the slaves equal those of the master
 };
 
@@ -83,6 +111,7 @@ struct ConstraintDescription {
   Reference master;
   std::vector<Reference> slaves;
   std::array<bool, 6> dofs{true, true, true, true, true, true};  // equal_dof only
+  int normal = 2;                                                // diaphragm only: global axis 0, 1, 2
 };
 
 // A slab as seen by contact and by the output: its corner nodes in order around it. How it carries load is said by
@@ -130,6 +159,7 @@ struct StructureDescription {
   std::vector<MassDescription> masses;
   std::vector<ElementDescription> elements;
   std::vector<SpringDescription> springs;
+  std::vector<LoadDescription> loads;
   std::vector<ConstraintDescription> constraints;
   std::vector<SlabDescription> slabs;
   DampingDescription damping;
@@ -165,7 +195,7 @@ struct MotionDescription {
 
 struct GravityDescription {
   Vector3 acceleration = Vector3::Zero();  // [m/s2]; zero: no gravity
-  bool statically_first = true;            // false: acts suddenly at t = 0 (a dropped body)
+  bool statically_first = true;            // with the loads on members; false: suddenly at t = 0 (a dropped body)
 };
 
 // The mechanical model as described; analysis and output options are apart (analysis.hpp).

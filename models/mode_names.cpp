@@ -69,13 +69,12 @@ std::vector<std::string> name_modes(const Model& model, const Structure& structu
 }
 
 Vector3 participation(const Model& model, const Structure& structure, const VectorX& shape) {
-  const VectorX u = full_shape(model, structure, shape);
-  Vector3 momentum = Vector3::Zero(), mass = Vector3::Zero();
-  for (const int node : structure.nodes) {
-    const Vector3 m = model.nodal_mass.segment<3>(6 * node);
-    momentum += m.cwiseProduct(u.segment<3>(6 * node));
-    mass += m;
+  Vector3 momentum, mass = Vector3::Zero();
+  for (std::size_t k = 0; k < 3; ++k) {
+    momentum[static_cast<Eigen::Index>(k)] =
+        shape.dot(model.inertia[k].segment(structure.first_dof, structure.last_dof - structure.first_dof));
   }
+  for (const int node : structure.nodes) mass += model.nodal_mass.segment<3>(6 * node);
   return (momentum.array().square() / mass.array().max(1e-300)).matrix();
 }
 

@@ -1,6 +1,7 @@
 // The mechanical model: built once by build_model(), then constant. What changes is in State.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,8 +52,9 @@ struct Model {
   std::vector<int> history_begin;     // of each group in State::history, and its total size at the end
   SparseMatrix mass;                  // M, free DOFs [kg, kg m2]; diagonal unless constraints couple DOFs
   SparseMatrix viscous_damping;       // dashpots only [N s/m]
-  VectorX nodal_mass;                 // full DOFs, before constraints [kg, kg m2]
-  VectorX gravity_load;               // free DOFs [N]
+  VectorX nodal_mass;                 // full DOFs, before constraints, half a member's mass at each end [kg, kg m2]
+  std::array<VectorX, 3> inertia;     // T' M iota, of a unit translation along x, y, z; free DOFs [kg]
+  VectorX gravity_load;               // weights at nodes, and the loads on members of linear groups; free DOFs [N]
   bool gravity_statically_first = true;
   std::vector<GroundMotion> motions;
   std::vector<VectorX> motion_load;   // free DOFs, force of a unit acceleration: -T' M T iota [kg], one a motion
@@ -61,6 +63,7 @@ struct Model {
   VectorX initial_displacement, initial_velocity;  // free DOFs
 
   int history_size() const { return history_begin.back(); }
+  bool loaded() const;                // weights or loads on members act
   double total_mass() const;          // of all nodes along x [kg]
 };
 

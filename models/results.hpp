@@ -13,7 +13,7 @@ namespace nsframe {
 //   kinetic + strain + damping + contact + numerical - input - (start) = balance error
 struct Energy {
   double kinetic = 0;          // 1/2 v' M v
-  double strain = 0;           // work of the internal forces since the start, recoverable or not
+  double strain = 0;           // work of the internal forces (less loads on nonlinear members) since the start, recoverable or not
   double damping = 0;          // dissipated by C
   double contact = 0;          // taken out by impacts
   double numerical = 0;        // dissipated by the scheme itself (theta > 1/2)

@@ -151,7 +151,13 @@ class Expansion {
   ElementDescription& add_member(const FrameMembers& members, int story, Reference i, Reference j) {
     ElementDescription& element = add_element(element_kind(members.element), std::move(i), std::move(j));
     element.section = at_story(members.section, story);
+    if (!members.end_section.empty()) {
+      const Reference& end = at_story(members.end_section, story);
+      element.sections = {end, element.section, end};
+    }
     element.points = members.points;
+    element.integration = members.integration;
+    element.mass = members.mass;
     element.geometry = members.geometry;
     return element;
   }
@@ -171,10 +177,20 @@ class Expansion {
     if (!frame_.beams) return;
     for (int iy = 0; iy < y_.count(); ++iy)
       for (int ix = 0; ix + 1 < x_.count(); ++ix)
-        add_member(*frame_.beams, story, node(story, grid(ix, iy)), node(story, grid(ix + 1, iy)));
+        add_beam(story, node(story, grid(ix, iy)), node(story, grid(ix + 1, iy)));
     for (int ix = x_.count() - 1; ix >= 0; --ix)
       for (int iy = 0; iy + 1 < y_.count(); ++iy)
-        add_member(*frame_.beams, story, node(story, grid(ix, iy)), node(story, grid(ix, iy + 1)));
+        add_beam(story, node(story, grid(ix, iy)), node(story, grid(ix, iy + 1)));
+  }
+
+  void add_beam(int story, Reference i, Reference j) {
+    const ElementDescription& beam = add_member(*frame_.beams, story, std::move(i), std::move(j));
+    if (frame_.beams->load.empty() || at_story(frame_.beams->load, story) == 0) return;
+    LoadDescription load;
+    load.at = frame_.at;
+    load.elements = {{beam.id, frame_.at}};
+    load.uniform = Vector3(0, 0, -at_story(frame_.beams->load, story));
+    out_.loads.push_back(std::move(load));
   }
 
   void add_slab(int story) {
@@ -293,7 +309,10 @@ std::vector<std::string> faults(const StoryFrame& frame) {
   if (frame.height.empty()) out.push_back("height is missing");
   check_list(out, "height", frame.height.size(), frame.stories);
   check_list(out, "columns.section", frame.columns.section.size(), frame.stories);
+  check_list(out, "columns.end_section", frame.columns.end_section.size(), frame.stories);
   if (frame.beams) check_list(out, "beams.section", frame.beams->section.size(), frame.stories);
+  if (frame.beams) check_list(out, "beams.end_section", frame.beams->end_section.size(), frame.stories);
+  if (frame.beams) check_list(out, "beams.load", frame.beams->load.size(), frame.stories);
   if (frame.braces) check_list(out, "braces.area", frame.braces->area.size(), frame.stories);
   check_list(out, "floor_mass", frame.mass.floor.size(), frame.stories);
   check_list(out, "centre_inertia", frame.mass.centre_inertia.size(), frame.stories);

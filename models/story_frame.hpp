@@ -26,9 +26,16 @@ ElementKind element_kind(BarKind kind);
 // Columns or beams. Lists have one entry a story, from the lowest.
 struct FrameMembers {
   std::vector<Reference> section;  // one, or one a story
+  std::vector<Reference> end_section;  // of fiber beams, at the first and last point; none, one, or one a story
   BeamKind element = BeamKind::elastic;
-  int points = 5;  // Gauss-Lobatto points of a fiber beam
+  int points = 5;  // integration points of a fiber beam
+  Integration integration;
+  MemberMass mass;
   Geometry geometry = Geometry::linear;
+};
+
+struct FrameBeams : FrameMembers {
+  std::vector<double> load;  // [N/m] downwards on every beam; none, one, or one a story
 };
 
 enum class PlanAxis { x, y };
@@ -82,7 +89,7 @@ struct StoryFrame {
   std::array<int, 2> bays{1, 1};
   Vector3 origin = Vector3::Zero();  // [m], of the plan's corner (-x, -y) at the base
   FrameColumns columns;
-  std::optional<FrameMembers> beams;
+  std::optional<FrameBeams> beams;
   FrameSlab slab;
   std::optional<FrameBraces> braces;
   FrameBase base;

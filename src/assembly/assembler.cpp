@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "elements/fiber_beam.hpp"
+#include "elements/member_load.hpp"
 
 namespace nsframe {
 
@@ -137,6 +138,20 @@ VectorX Assembler::virgin_history() const {
 void Assembler::start_step(const VectorX& committed, VectorX& trial) const {
   for (const Placed& placed : nonlinear_) {
     placed.group->start_step(placed.element, committed.data() + placed.history_begin, trial.data() + placed.history_begin);
+  }
+}
+
+double Assembler::load_factor(const VectorX& history) const {
+  for (const Placed& placed : nonlinear_) {
+    const MemberLoad* const load = placed.group->load(placed.element);
+    if (load && !load->empty()) return placed.group->load_part(placed.element, history.data() + placed.history_begin);
+  }
+  return 1;
+}
+
+void Assembler::set_load_factor(double factor, VectorX& history) const {
+  for (const Placed& placed : nonlinear_) {
+    if (double* const own = placed.group->load_factor(placed.element, history.data() + placed.history_begin)) *own = factor;
   }
 }
 

@@ -25,7 +25,11 @@ class Assembler {
   // To be called before the first internal_force() of every attempted step.
   void start_step(const VectorX& committed_history, VectorX& trial_history) const;
 
-  // P(q) [N, N m] at `displacement`; writes the trial history, and keeps the tangent for tangent().
+  // The part of the loads on members that is in the history of nonlinear ones (0 in a virgin history), and its change.
+  double load_factor(const VectorX& history) const;
+  void set_load_factor(double factor, VectorX& history) const;
+
+  // P(q) [N, N m], less the loads on nonlinear members, at `displacement`; writes the trial history, and keeps the tangent for tangent().
   void internal_force(const VectorX& displacement, const VectorX& committed_history, VectorX& trial_history,
                       VectorX& force);
   // dP/dq at the last internal_force(); same pattern always.

@@ -55,7 +55,7 @@ Simulation::Simulation(const Model& model, const AnalysisOptions& options, int m
 
 void Simulation::find_initial_state() {
   system_.static_load = model_.gravity_load;
-  const bool statically = model_.gravity_statically_first && model_.gravity_load.cwiseAbs().maxCoeff() > 0;
+  const bool statically = model_.gravity_statically_first && model_.loaded();
   const bool pretensioned = state_.internal_force.cwiseAbs().maxCoeff() > 0;
   if (statically) {
     for (const Structure& structure : model_.structures) {
@@ -71,10 +71,12 @@ void Simulation::find_initial_state() {
     const VectorX load = statically ? model_.gravity_load : VectorX::Zero(model_.dofs.size());
     solve_static(system_, load, StaticOptions{}, state_);
   }
-  if (model_.initial_displacement.cwiseAbs().maxCoeff() > 0) {
+  const bool loads_act_suddenly = system_.assembler.load_factor(state_.history) != 1;
+  if (model_.initial_displacement.cwiseAbs().maxCoeff() > 0 || loads_act_suddenly) {
     State displaced = state_;
     displaced.displacement += model_.initial_displacement;
     system_.assembler.start_step(state_.history, displaced.history);
+    system_.assembler.set_load_factor(1, displaced.history);
     system_.assembler.internal_force(displaced.displacement, state_.history, displaced.history, displaced.internal_force);
     state_ = displaced;
   }

@@ -28,6 +28,7 @@ void solve_static(System& system, const VectorX& load, const StaticOptions& opti
   const StaticTolerance tolerance{options.tolerance, start.norm()};
   StaticStep step(system, start, change, 1);
   StaticPoint committed{state, 0};
+  const double members = system.assembler.load_factor(state.history);
   double increment = 1;
   Ladder ladder({});
   std::vector<Attempt> attempts;
@@ -37,6 +38,7 @@ void solve_static(System& system, const VectorX& load, const StaticOptions& opti
       c = {factor - level, 1e-12, VectorX::Zero(q.size()), 1};
     };
     step.prepare(committed, constraint, VectorX::Zero(load.size()), 0, tolerance);
+    step.set_member_loads(members + level * (1 - members));
     if (ladder.climb(step, options.max_iterations, attempts)) {
       step.trial().factor = level;
       std::swap(committed, step.trial());

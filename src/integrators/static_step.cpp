@@ -28,9 +28,12 @@ void StaticStep::prepare(const StaticPoint& committed, ConstraintFunction constr
 void StaticStep::restart() {
   trial_ = *committed_;
   system_.assembler.start_step(committed_->state.history, trial_.state.history);
+  if (member_loads_) system_.assembler.set_load_factor(*member_loads_, trial_.state.history);
   trial_.state.displacement += first_change_;
   trial_.factor += first_factor_change_;
   evaluate();
+  // where members alone are loaded, their clamping forces are all that there is to compare with
+  if (member_loads_) tolerance_.least_force = std::max(tolerance_.least_force, trial_.state.internal_force.norm());
   if (row_scale_ > 0) return;
   row_scale_ = std::max(system_.assembler.tangent().diagonal().cwiseAbs().mean(), 1e-300);
   residual_[pattern_.size()] = row_scale_ * constraint_.value;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "assembly/system.hpp"
 #include "integrators/nonlinear_step.hpp"
@@ -40,6 +41,8 @@ class StaticStep : public NonlinearStep {
   // The step from `committed` with the first guess `committed` + (change, factor_change).
   void prepare(const StaticPoint& committed, ConstraintFunction constraint, const VectorX& change, double factor_change,
                const StaticTolerance& tolerance);
+  // The part of the loads on members that acts at the end of the step; without, that at its start.
+  void set_member_loads(double part) { member_loads_ = part; }
   StaticPoint& trial() { return trial_; }
   double largest_force() const { return scale_; }
   double relative_residual() const;
@@ -66,6 +69,7 @@ class StaticStep : public NonlinearStep {
   VectorX first_change_;
   double first_factor_change_ = 0;
   StaticTolerance tolerance_;
+  std::optional<double> member_loads_;
   StaticConstraint constraint_;
   double row_scale_ = 0;              // of the constraint's equation, to the size of the stiffness; 0: not known yet
   double scale_ = 0, error_ = 0;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/beam_shapes.hpp"
 #include "output/frame_geometry.hpp"
 #include "output/member_forces.hpp"
 
@@ -29,6 +30,28 @@ void evaluate_points(const FrameGeometry& geometry, const VectorX& displacement,
   }
 }
 
+// Beams at large rotations: between their ends by the shape functions along the present chord, with the sections turned
+// by the whole rotation. The field `rotation` stays that of the nodes' DOFs.
+void evaluate_finite(const FrameGeometry& geometry, const Model& model, const State& state,
+                     const VectorX& displacement, const VectorX& velocity, FrameFields& fields) {
+  for (const FiniteMember& member : geometry.finite) {
+    const ElementGroup& group = *model.groups[member.group];
+    const ElementShape shape = group.shape(member.element);
+    const ElementPose pose = group.pose(member.element, element_displacement(group, member.element, displacement),
+                                        element_history(model, member.group, member.element, state));
+    const Vector12 rate = element_displacement(group, member.element, velocity);
+    const int first_station = geometry.station[static_cast<std::size_t>(member.first_point)];
+    for (int point = member.first_point; point < member.last_point; ++point) {
+      const auto i = static_cast<std::size_t>(point);
+      const double along = double(geometry.station[i] - first_station) / member.segments;
+      const SectionPlace place = finite_place(shape, pose, rate, along);
+      const Vector3 arm = place.turn * geometry.arm[i];
+      store(fields.displacement, point, place.displacement + arm - geometry.arm[i]);
+      store(fields.velocity, point, place.velocity + place.spin.cross(arm));
+    }
+  }
+}
+
 const SectionResult& nearest_section(const std::vector<SectionResult>& sections, double along) {
   return *std::min_element(sections.begin(), sections.end(), [along](const auto& a, const auto& b) {
     return std::abs(a.position - along) < std::abs(b.position - along);
@@ -41,11 +64,12 @@ void evaluate_members(const FrameGeometry& geometry, const Model& model, const S
   for (const auto& drawn : geometry.drawn) {
     const Vector12& forces = end_forces.evaluate(model, drawn.group, drawn.element, state, displacement);
     const ElementGroup& group = *model.groups[drawn.group];
-    const auto sections = group.sections(drawn.element, element_displacement(group, drawn.element, displacement),
-                                         element_history(model, drawn.group, drawn.element, state));
+    const double* const history = element_history(model, drawn.group, drawn.element, state);
+    const auto sections = group.sections(drawn.element, element_displacement(group, drawn.element, displacement), history);
+    const double length = group.shape(drawn.element).length, part = group.load_part(drawn.element, history);
     for (int cell = drawn.first_cell; cell < drawn.last_cell; ++cell) {
       const auto i = static_cast<std::size_t>(cell);
-      const SectionForce at = section_force(forces, geometry.along[i]);
+      const SectionForce at = section_force(forces, geometry.along[i], group.load(drawn.element), part, length);
       store(fields.force, cell, at.force);
       store(fields.moment, cell, at.moment);
       if (sections.empty()) continue;
@@ -80,7 +104,9 @@ void evaluate_frame(const FrameGeometry& geometry, const Model& model, const Sta
   fields.impulse.assign(cells, 0.0);
   fields.yielded.assign(cells, 0);
   const VectorX displacement = model.dofs.expand(state.displacement);
-  evaluate_points(geometry, displacement, model.dofs.expand(state.velocity), fields);
+  const VectorX velocity = model.dofs.expand(state.velocity);
+  evaluate_points(geometry, displacement, velocity, fields);
+  evaluate_finite(geometry, model, state, displacement, velocity, fields);
   evaluate_members(geometry, model, state, displacement, fields);
   evaluate_contacts(geometry, model, state, interval_impulse, fields);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <initializer_list>
 
+#include "base/rotation.hpp"
+#include "output/beam_shapes.hpp"
 #include "output/polygon.hpp"
 
 namespace nsframe {
@@ -29,6 +31,7 @@ class Builder {
 
   void draw_elements();
   void draw_member(const ElementGroup& group, int element, const CellOwner& owner);
+  int finite_station(const ElementNodes& nodes, double along);
   int beam_station(const ElementNodes& nodes, const ElementShape& shape, double along);
   void draw_sweep(const std::vector<int>& stations, const Vector3& start, const ElementShape& shape,
                   const SectionOutline& outline, const CellOwner& owner);
@@ -97,37 +100,33 @@ void Builder::add_cell(CellType type, std::initializer_list<int> points, const C
   out_.along.push_back(along);
 }
 
-// Motion of the cross-section at `along` by the shape functions of a beam: linear along x and in torsion, cubic Hermite
-// functions across, and the section stays normal to the curve.
+// Motion of the cross-section at `along` by the shape functions of a beam, carried to the nodes by its rigid arms.
 int Builder::beam_station(const ElementNodes& nodes, const ElementShape& shape, double along) {
-  const double s = along, L = shape.length;
-  const double deflection[4] = {1 - 3 * s * s + 2 * s * s * s, L * s * (1 - s) * (1 - s), s * s * (3 - 2 * s),
-                                L * s * s * (s - 1)};
-  const double slope[4] = {6 * s * (s - 1) / L, (1 - s) * (1 - 3 * s), 6 * s * (1 - s) / L, s * (3 * s - 2)};
-  Eigen::Matrix<double, 6, 12> local = Eigen::Matrix<double, 6, 12>::Zero();
-  for (Eigen::Index end = 0; end < 2; ++end) {
-    const Eigen::Index first = 6 * end;
-    const double share = end == 0 ? 1 - s : s;
-    local(0, first) = share;                    // ux
-    local(1, first + 1) = deflection[2 * end];  // uy from uy, rz
-    local(1, first + 5) = deflection[2 * end + 1];
-    local(2, first + 2) = deflection[2 * end];  // uz from uz, ry (uz' = -ry)
-    local(2, first + 4) = -deflection[2 * end + 1];
-    local(3, first + 3) = share;            // rx
-    local(4, first + 2) = -slope[2 * end];  // ry = -uz'
-    local(4, first + 4) = slope[2 * end + 1];
-    local(5, first + 1) = slope[2 * end];  // rz = uy'
-    local(5, first + 5) = slope[2 * end + 1];
-  }
+  const Eigen::Matrix<double, 6, 12> local = beam_shape_functions(along, shape.length);
   const int station = add_station();
   for (int row = 0; row < 6; row += 3) {
-    for (int column = 0; column < 12; column += 3) {
-      const Matrix3 block = shape.axes.transpose() * local.block<3, 3>(row, column) * shape.axes;
-      const int node = nodes[column < 6 ? 0 : 1];
+    for (int end = 0; end < 2; ++end) {
+      const Matrix3 by_shift = shape.axes.transpose() * local.block<3, 3>(row, 6 * end) * shape.axes;
+      const Matrix3 by_turn = shape.axes.transpose() * local.block<3, 3>(row, 6 * end + 3) * shape.axes -
+                              by_shift * skew(shape.offset[static_cast<std::size_t>(end)]);
+      const int node = nodes[static_cast<std::size_t>(end)];
       for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) couple(station, row + i, 6 * node + column % 6 + j, block(i, j));
+        for (int j = 0; j < 3; ++j) {
+          couple(station, row + i, 6 * node + j, by_shift(i, j));
+          couple(station, row + i, 6 * node + 3 + j, by_turn(i, j));
+        }
       }
     }
+  }
+  return station;
+}
+
+// Of a member whose pose says where it is: only the rotation, between the DOFs of the nodes.
+int Builder::finite_station(const ElementNodes& nodes, double along) {
+  const int station = add_station();
+  for (int i = 3; i < 6; ++i) {
+    couple(station, i, 6 * nodes[0] + i, 1 - along);
+    couple(station, i, 6 * nodes[1] + i, along);
   }
   return station;
 }
@@ -142,9 +141,12 @@ void Builder::draw_member(const ElementGroup& group, int element, const CellOwne
     return;
   }
   std::vector<int> stations;
-  for (int k = 0; k <= segments_; ++k) stations.push_back(beam_station(nodes, shape, double(k) / segments_));
+  for (int k = 0; k <= segments_; ++k) {
+    const double along = double(k) / segments_;
+    stations.push_back(shape.finite ? finite_station(nodes, along) : beam_station(nodes, shape, along));
+  }
   const SectionOutline outline = shape.outline ? tidy(*shape.outline) : SectionOutline{};
-  const Vector3& start = position_of(model_, nodes[0]);
+  const Vector3 start = position_of(model_, nodes[0]) + shape.offset[0];
   if (outline.empty()) {
     draw_curve(stations, start, shape, owner);
   } else {
@@ -201,9 +203,11 @@ void Builder::draw_elements() {
     for (int e = 0; e < group.size(); ++e, ++index) {
       out_.element_ids.push_back(group.id(e));
       if (!is_drawn(group, e)) continue;
-      const int first_cell = out_.cells();
+      const int first_cell = out_.cells(), first_point = out_.points();
       draw_member(group, e, {kind, index, -1, structure_of(model_, group.nodes(e)[0])});
       out_.drawn.push_back({g, e, first_cell, out_.cells()});
+      const ElementShape shape = group.shape(e);
+      if (shape.beam && shape.finite) out_.finite.push_back({g, e, first_point, out_.points(), segments_});
     }
   }
 }

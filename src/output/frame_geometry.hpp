@@ -1,6 +1,6 @@
 // What is drawn of a model: members swept with their outlines, slabs as plates, contact pairs as lines. The points of
 // the drawing hang on stations (cross-sections and nodes) whose motion is linear in the DOFs of the nodes, so that a
-// frame costs one sparse product and one cross product a point.
+// frame costs one sparse product and one cross product a point. Corotational beams are placed one by one.
 #pragma once
 
 #include <string>
@@ -23,6 +23,14 @@ struct DrawnElement {
   int first_cell = 0, last_cell = 0;
 };
 
+// A beam that turns by any amount: its points [first_point, last_point) are placed by its pose.
+struct FiniteMember {
+  std::size_t group = 0;
+  int element = 0;
+  int first_point = 0, last_point = 0;
+  int segments = 0;
+};
+
 struct FrameGeometry {
   std::vector<Vector3> position;  // of each point [m]
   std::vector<int> station;       // of each point
@@ -39,6 +47,7 @@ struct FrameGeometry {
   std::vector<double> along;  // place of the cell's middle along its element, in [0, 1]
 
   std::vector<DrawnElement> drawn;
+  std::vector<FiniteMember> finite;
   std::vector<std::string> kind_names;
   std::vector<std::string> element_ids;
 

@@ -22,17 +22,29 @@ const Vector12& EndForces::evaluate(const Model& model, std::size_t group, int e
   if (trial_.size() < history_size) trial_.resize(history_size);
   const double* committed = element_history(model, group, element, state);
   elements.start_step(element, committed, trial_.data());
-  elements.respond(element, element_displacement(elements, element, full_displacement), committed, trial_.data(),
-                   force_, nullptr);
-  const Matrix3 axes = elements.shape(element).axes;
-  for (Eigen::Index block = 0; block < 12; block += 3)
-    force_.segment<3>(block) = (axes * force_.segment<3>(block)).eval();
+  const Vector12 displacement = element_displacement(elements, element, full_displacement);
+  elements.respond(element, displacement, committed, trial_.data(), force_, nullptr);
+  const ElementPose pose = elements.pose(element, displacement, committed);
+  for (const int end : {0, 1}) {
+    const Vector3 force = force_.segment<3>(6 * end), moment = force_.segment<3>(6 * end + 3);
+    force_.segment<3>(6 * end) = pose.axes * force;
+    force_.segment<3>(6 * end + 3) = pose.axes * (moment - pose.arm[static_cast<std::size_t>(end)].cross(force));
+  }
   return force_;
 }
 
 SectionForce section_force(const Vector12& end_forces, double along) {
   return {-(1 - along) * end_forces.segment<3>(0) + along * end_forces.segment<3>(6),
           -(1 - along) * end_forces.segment<3>(3) + along * end_forces.segment<3>(9)};
+}
+
+SectionForce section_force(const Vector12& end_forces, double along, const MemberLoad* load, double part, double length) {
+  SectionForce at = section_force(end_forces, along);
+  if (!load || load->empty() || part == 0) return at;
+  const LoadedSection here = section_forces(*load, along, length), start = section_forces(*load, 0, length);
+  at.force = -end_forces.head<3>() + part * (here.force - start.force);
+  at.moment += part * here.moment;
+  return at;
 }
 
 }  // namespace nsframe

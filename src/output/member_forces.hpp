@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "elements/member_load.hpp"
 #include "models/model.hpp"
 #include "models/state.hpp"
 
@@ -14,7 +15,7 @@ Vector12 element_displacement(const ElementGroup& group, int element, const Vect
 // First double of an element's history in `state`.
 const double* element_history(const Model& model, std::size_t group, int element, const State& state);
 
-// Forces that the nodes apply to the ends of elements, in the element's local axes: at node i N, VY, VZ [N],
+// Forces that the nodes apply to the ends of elements (at the far side of rigid arms), in the element's present local axes: at node i N, VY, VZ [N],
 // T, MY, MZ [N m], then the same at node j. Keeps scratch between calls.
 class EndForces {
  public:
@@ -26,11 +27,12 @@ class EndForces {
   Vector12 force_;
 };
 
-// Section force and moment at `along` in [0, 1] of a member without loads between its ends, as the part beyond acts on
-// the part before: (N, VY, VZ) [N] and (T, MY, MZ) [N m].
+// Section force and moment at `along` in [0, 1] of a member, as the part beyond acts on the part before: (N, VY, VZ) [N]
+// and (T, MY, MZ) [N m]. By equilibrium with the end forces and, where the member has one, `part` of its load.
 struct SectionForce {
   Vector3 force, moment;
 };
 SectionForce section_force(const Vector12& end_forces, double along);
+SectionForce section_force(const Vector12& end_forces, double along, const MemberLoad* load, double part, double length);
 
 }  // namespace nsframe

@@ -25,8 +25,36 @@ void check_two_nodes(TableReader& table, const std::vector<Reference>& nodes) {
 
 }  // namespace
 
-void check(TableReader& table, const BeamTable& beam) { check_two_nodes(table, beam.nodes); }
+void check(TableReader& table, const BeamTable& beam) {
+  check_two_nodes(table, beam.nodes);
+  if (beam.section.name.empty() && beam.sections.empty()) table.error("section", "missing key 'section'");
+  if (!beam.section.name.empty() && !beam.sections.empty()) table.error("sections", "a beam has either section or sections");
+}
+
+void check(TableReader& table, const Integration& integration) {
+  const std::vector<std::string> rules = integration_rules();
+  if (std::find(rules.begin(), rules.end(), integration.rule) == rules.end())
+    table.error("rule", fmt::format("there is no integration rule '{}'{}", integration.rule, did_you_mean(integration.rule, rules)));
+}
+
+void check(TableReader& table, const MemberMass& mass) {
+  if (mass.per_length > 0 && mass.density > 0) table.error("density", "a mass has either per_length or density");
+  if (!mass.any() && (mass.consistent || mass.rotary_inertia)) table.error("per_length", "a mass needs per_length or density");
+}
+
+void check(TableReader& table, const ReleaseTable& releases) {
+  for (const auto& [key, end] : {std::pair{"i", releases.i}, {"j", releases.j}})
+    if (end.dofs[1] || end.dofs[2]) table.error(key, "an end of a beam can release ux, rx, ry and rz, not a shear force");
+}
+
+void check(TableReader& table, const LoadTable& load) {
+  if (!load.uniform && !load.force) table.error("uniform", "a load needs uniform or force");
+  if (load.position && !load.force) table.error("position", "a position is that of a force, and there is none");
+}
+
 void check(TableReader& table, const BarTable& bar) { check_two_nodes(table, bar.nodes); }
+
+void check(TableReader& table, const LinkTable& link) { check_two_nodes(table, link.nodes); }
 
 void check(TableReader& table, const SpringTable& spring) {
   if (spring.nodes.size() != 1 && spring.nodes.size() != 2)

@@ -12,8 +12,13 @@ void check(TableReader&, const Table&) {}
 
 void check(TableReader& table, const MassTable& mass);
 void check(TableReader& table, const BeamTable& beam);
+void check(TableReader& table, const Integration& integration);
+void check(TableReader& table, const MemberMass& mass);
+void check(TableReader& table, const ReleaseTable& releases);
+void check(TableReader& table, const LoadTable& load);
 void check(TableReader& table, const BarTable& bar);
 void check(TableReader& table, const SpringTable& spring);
+void check(TableReader& table, const LinkTable& link);
 void check(TableReader& table, const SlabTable& slab);
 void check(TableReader& table, const DampingTable& damping);
 void check(TableReader& table, const StoryFrameTable& frame);

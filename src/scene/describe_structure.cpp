@@ -15,6 +15,38 @@ Reference at_or_empty(const std::vector<Reference>& nodes, std::size_t i) {
   return i < nodes.size() ? nodes[i] : Reference{};
 }
 
+// Basic directions of the releases; ux and rx are the same at both ends.
+Releases describe(const ReleaseTable& table) {
+  Releases out;
+  out.basic = {table.i.dofs[0] || table.j.dofs[0], table.i.dofs[5], table.j.dofs[5],
+               table.i.dofs[4],                    table.j.dofs[4], table.i.dofs[3] || table.j.dofs[3]};
+  return out;
+}
+
+ReleaseTable release_table(const Releases& releases) {
+  const auto& r = releases.basic;
+  return {{{r[0], false, false, r[5], r[3], r[1]}}, {{false, false, false, false, r[4], r[2]}}};
+}
+
+Vector3 vector3(const std::array<double, 3>& values) { return {values[0], values[1], values[2]}; }
+std::array<double, 3> components(const Vector3& v) { return {v.x(), v.y(), v.z()}; }
+
+LoadDescription describe(const LoadTable& load) {
+  LoadDescription out;
+  out.at = load.at;
+  out.elements = load.beams;
+  out.local = load.axes == LoadAxes::local;
+  if (load.uniform) out.uniform = vector3(*load.uniform);
+  if (load.force) out.force = vector3(*load.force);
+  out.position = load.position.value_or(LoadDescription{}.position);
+  return out;
+}
+
+LoadTable load_table(const LoadDescription& load) {
+  return {load.at, load.elements, load.local ? LoadAxes::local : LoadAxes::global, components(load.uniform),
+          components(load.force), load.position};
+}
+
 ElementDescription describe(const BeamTable& beam, const ExplicitStructure& structure) {
   ElementDescription out;
   out.id = beam.id.name;
@@ -22,11 +54,17 @@ ElementDescription describe(const BeamTable& beam, const ExplicitStructure& stru
   out.kind = element_kind(beam.element.value_or(structure.element));
   out.node_i = at_or_empty(beam.nodes, 0);
   out.node_j = at_or_empty(beam.nodes, 1);
-  out.section = beam.section;
+  out.section = beam.sections.empty() ? beam.section : beam.sections[beam.sections.size() / 2];
+  out.sections = beam.sections;
+  if (out.kind != ElementKind::elastic_beam) out.integration = structure.integration;
+  if (beam.integration) out.integration = *beam.integration;
+  if (beam.releases) out.releases = describe(*beam.releases);
+  out.mass = beam.mass.value_or(structure.member_mass);
   out.points = beam.points.value_or(structure.points);
   out.geometry = beam.geometry.value_or(structure.geometry);
   if (beam.orientation)
     out.orientation = Vector3((*beam.orientation)[0], (*beam.orientation)[1], (*beam.orientation)[2]);
+  out.offset = {beam.offset_i.value_or(Vector3::Zero()), beam.offset_j.value_or(Vector3::Zero())};
   return out;
 }
 
@@ -44,7 +82,9 @@ ElementDescription describe(const BarTable& bar, BarKind kind, const ExplicitStr
   return out;
 }
 
-SpringDescription describe(const SpringTable& spring) {
+// What springs and links have in common.
+template <class Table>
+SpringDescription describe_spring(const Table& spring) {
   SpringDescription out;
   out.id = spring.id.name;
   out.at = spring.id.at;
@@ -56,9 +96,23 @@ SpringDescription describe(const SpringTable& spring) {
   return out;
 }
 
+SpringDescription describe(const SpringTable& spring) {
+  SpringDescription out = describe_spring(spring);
+  if (!spring.orient) return out;
+  out.x = vector3((*spring.orient)[0]);
+  out.in_plane = vector3((*spring.orient)[1]);
+  return out;
+}
+
+SpringDescription describe(const LinkTable& link) {
+  SpringDescription out = describe_spring(link);
+  if (link.in_plane) out.in_plane = vector3(*link.in_plane);
+  out.shear_distance = Vector2(link.shear_distance[0], link.shear_distance[1]);
+  return out;
+}
+
 ConstraintDescription tie(const SlabTable& slab, ConstraintKind kind) {
-  ConstraintDescription out{slab.id.at, kind, slab.center.value_or(Reference{}), slab.corners, {}};
-  out.dofs = ConstraintDescription{}.dofs;
+  ConstraintDescription out{slab.id.at, kind, slab.center.value_or(Reference{}), slab.corners};
   out.slaves.insert(out.slaves.end(), slab.nodes.begin(), slab.nodes.end());
   return out;
 }
@@ -69,13 +123,13 @@ void describe_constraints(const ExplicitStructure& structure, StructureDescripti
     for (const SlabTable& slab : structure.slabs)
       if (slab.kind == kind && slab.center) out.constraints.push_back(tie(slab, constraint));
   };
-  const auto tie_nodes = [&](const std::vector<TieTable>& ties, ConstraintKind kind) {
-    for (const TieTable& t : ties)
-      out.constraints.push_back({t.master.at, kind, t.master, t.slaves, ConstraintDescription{}.dofs});
-  };
-  tie_nodes(structure.rigid_links, ConstraintKind::rigid_body);
+  for (const TieTable& t : structure.rigid_links)
+    out.constraints.push_back({t.master.at, ConstraintKind::rigid_body, t.master, t.slaves});
   tie_slabs(SlabKind::rigid, ConstraintKind::rigid_body);
-  tie_nodes(structure.diaphragms, ConstraintKind::diaphragm);
+  for (const DiaphragmTable& t : structure.diaphragms) {
+    out.constraints.push_back({t.master.at, ConstraintKind::diaphragm, t.master, t.slaves});
+    out.constraints.back().normal = static_cast<int>(t.normal);
+  }
   tie_slabs(SlabKind::diaphragm, ConstraintKind::diaphragm);
   for (const EqualDofTable& t : structure.equal_dof)
     out.constraints.push_back({t.master.at, ConstraintKind::equal_dof, t.master, t.slaves, t.dofs.dofs});
@@ -153,6 +207,8 @@ StructureDescription describe(const ExplicitStructure& structure) {
   for (const BarTable& bar : structure.trusses) out.elements.push_back(describe(bar, BarKind::truss, structure));
   for (const BarTable& bar : structure.cables) out.elements.push_back(describe(bar, BarKind::cable, structure));
   for (const SpringTable& spring : structure.springs) out.springs.push_back(describe(spring));
+  for (const LinkTable& link : structure.links) out.springs.push_back(describe(link));
+  for (const LoadTable& load : structure.loads) out.loads.push_back(describe(load));
   describe_constraints(structure, out);
   for (const SlabTable& s : structure.slabs)
     out.slabs.push_back(
@@ -166,24 +222,31 @@ StructureDescription describe(const ExplicitStructure& structure) {
 namespace {
 
 BeamTable beam_table(const ElementDescription& element) {
-  BeamTable out{{element.id, element.at},
-                {element.node_i, element.node_j},
-                element.section,
-                BeamKind::elastic,
-                element.points,
-                element.geometry,
-                std::nullopt};
+  BeamTable out;
+  out.id = {element.id, element.at};
+  out.nodes = {element.node_i, element.node_j};
+  if (element.sections.empty()) out.section = element.section;
+  out.sections = element.sections;
+  out.element = BeamKind::elastic;
+  out.points = element.points;
+  if (element.integration != Integration{}) out.integration = element.integration;
+  if (element.mass != MemberMass{}) out.mass = element.mass;
+  if (element.releases.any()) out.releases = release_table(element.releases);
+  out.geometry = element.geometry;
   if (element.kind == ElementKind::displacement_beam) out.element = BeamKind::displacement;
   if (element.kind == ElementKind::force_beam) out.element = BeamKind::force_based;
   if (element.orientation) {
     const Vector3& v = *element.orientation;
     out.orientation = {v.x(), v.y(), v.z()};
   }
+  if (!element.offset[0].isZero(0)) out.offset_i = element.offset[0];
+  if (!element.offset[1].isZero(0)) out.offset_j = element.offset[1];
   return out;
 }
 
-SpringTable spring_table(const SpringDescription& spring) {
-  SpringTable out;
+template <class Table>
+Table spring_table(const SpringDescription& spring) {
+  Table out;
   out.id = {spring.id, spring.at};
   out.nodes = {spring.node_i};
   if (spring.node_j) out.nodes.push_back(*spring.node_j);
@@ -191,6 +254,17 @@ SpringTable spring_table(const SpringDescription& spring) {
   Eigen::Map<Vector6>(out.damping.of_dof.data()) = spring.damping;
   out.law.of_dof = spring.law;
   return out;
+}
+
+void add_spring(const SpringDescription& spring, ExplicitStructure& out) {
+  if (spring.shear_distance) {
+    LinkTable& link = out.links.emplace_back(spring_table<LinkTable>(spring));
+    if (spring.in_plane) link.in_plane = components(*spring.in_plane);
+    link.shear_distance = {spring.shear_distance->x(), spring.shear_distance->y()};
+    return;
+  }
+  SpringTable& table = out.springs.emplace_back(spring_table<SpringTable>(spring));
+  if (spring.in_plane) table.orient = {components(spring.x), components(*spring.in_plane)};
 }
 
 }  // namespace
@@ -214,10 +288,11 @@ ExplicitStructure tables(const StructureDescription& structure) {
     else
       out.beams.push_back(beam_table(e));
   }
-  for (const SpringDescription& spring : structure.springs) out.springs.push_back(spring_table(spring));
+  for (const SpringDescription& spring : structure.springs) add_spring(spring, out);
+  for (const LoadDescription& load : structure.loads) out.loads.push_back(load_table(load));
   for (const ConstraintDescription& c : structure.constraints) {
     if (c.kind == ConstraintKind::rigid_body) out.rigid_links.push_back({c.master, c.slaves});
-    if (c.kind == ConstraintKind::diaphragm) out.diaphragms.push_back({c.master, c.slaves});
+    if (c.kind == ConstraintKind::diaphragm) out.diaphragms.push_back({c.master, c.slaves, static_cast<Axis>(c.normal)});
     if (c.kind == ConstraintKind::equal_dof) out.equal_dof.push_back({c.master, c.slaves, {c.dofs}});
   }
   for (const SlabDescription& s : structure.slabs)

@@ -62,6 +62,8 @@ constexpr std::array named_dimensions{
     NamedDimension{dimension::area, "an area", "m2"},
     NamedDimension{dimension::fourth_power_of_length, "a second moment of area", "m4"},
     NamedDimension{dimension::mass, "a mass", "kg"},
+    NamedDimension{dimension::mass_per_length, "a mass per length", "kg/m"},
+    NamedDimension{dimension::density, "a density", "kg/m3"},
     NamedDimension{dimension::inertia, "a rotational inertia", "kg m2"},
     NamedDimension{dimension::time, "a time", "s"},
     NamedDimension{dimension::frequency, "a frequency", "Hz"},

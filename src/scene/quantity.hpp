@@ -22,6 +22,8 @@ inline constexpr Dimension length{1, 0, 0, 0};
 inline constexpr Dimension area{2, 0, 0, 0};
 inline constexpr Dimension fourth_power_of_length{4, 0, 0, 0};
 inline constexpr Dimension mass{0, 1, 0, 0};
+inline constexpr Dimension mass_per_length{-1, 1, 0, 0};
+inline constexpr Dimension density{-3, 1, 0, 0};
 inline constexpr Dimension inertia{2, 1, 0, 0};
 inline constexpr Dimension time{0, 0, 1, 0};
 inline constexpr Dimension frequency{0, 0, -1, 0};

@@ -74,10 +74,12 @@ constexpr std::string_view title_of(const MassTable*) { return "a mass"; }
 constexpr std::string_view title_of(const BeamTable*) { return "a beam"; }
 constexpr std::string_view title_of(const BarTable*) { return "a truss or cable"; }
 constexpr std::string_view title_of(const SpringTable*) { return "a spring"; }
+constexpr std::string_view title_of(const LinkTable*) { return "a link"; }
 constexpr std::string_view title_of(const StiffnessTable*) { return "stiffness by direction"; }
 constexpr std::string_view title_of(const DashpotTable*) { return "dashpots by direction"; }
 constexpr std::string_view title_of(const LawTable*) { return "laws by direction"; }
-constexpr std::string_view title_of(const TieTable*) { return "a rigid link or diaphragm"; }
+constexpr std::string_view title_of(const TieTable*) { return "a rigid link"; }
+constexpr std::string_view title_of(const DiaphragmTable*) { return "a diaphragm"; }
 constexpr std::string_view title_of(const EqualDofTable*) { return "equal DOFs"; }
 constexpr std::string_view title_of(const SlabTable*) { return "a slab"; }
 constexpr std::string_view title_of(const InitialDisplacement*) { return "an initial displacement"; }
@@ -86,7 +88,11 @@ constexpr std::string_view title_of(const StageLoadTable*) { return "a load"; }
 constexpr std::string_view title_of(const ControlDofTable*) { return "a control DOF"; }
 constexpr std::string_view title_of(const DampingTable*) { return "damping"; }
 constexpr std::string_view title_of(const FrameColumns*) { return "columns"; }
-constexpr std::string_view title_of(const FrameMembers*) { return "beams"; }
+constexpr std::string_view title_of(const FrameBeams*) { return "beams"; }
+constexpr std::string_view title_of(const Integration*) { return "integration along beams"; }
+constexpr std::string_view title_of(const MemberMass*) { return "mass of beams"; }
+constexpr std::string_view title_of(const ReleaseTable*) { return "releases"; }
+constexpr std::string_view title_of(const LoadTable*) { return "a load on beams"; }
 constexpr std::string_view title_of(const FrameSlab*) { return "slabs of a story frame"; }
 constexpr std::string_view title_of(const FrameBraces*) { return "braces"; }
 constexpr std::string_view title_of(const FrameBase*) { return "base"; }

@@ -30,7 +30,7 @@ constexpr std::string_view scalar_key(const Table*) {
   return {};
 }
 
-inline constexpr Range gauss_points{3, 10, false, false};
+inline constexpr Range integration_points{2, max_points, false, false};
 
 // --- materials
 // --------------------------------------------------------------------------------------------------------
@@ -77,7 +77,8 @@ template <class Archive>
 void visit(Archive& ar, GravityTable& g) {
   ar(Field{"acceleration", "gravity", dimension::acceleration, range::non_negative}, g.acceleration);
   ar(Field{"direction", "in which it pulls"}, g.direction);
-  ar(Field{"statically_first", "find the rest under gravity before t = 0; false: it acts suddenly at t = 0"},
+  ar(Field{"statically_first",
+           "find the rest under gravity and the loads on beams before t = 0; false: they act suddenly at t = 0"},
      g.statically_first);
 }
 

@@ -20,7 +20,13 @@ constexpr auto names_of(BeamKind) {
 }
 constexpr auto names_of(BarKind) { return Names<BarKind, 2>{{{"truss", BarKind::truss}, {"cable", BarKind::cable}}}; }
 constexpr auto names_of(Geometry) {
-  return Names<Geometry, 2>{{{"linear", Geometry::linear}, {"p-delta", Geometry::p_delta}}};
+  return Names<Geometry, 3>{{{"linear", Geometry::linear},
+                             {"p-delta", Geometry::p_delta},
+                             {"corotational", Geometry::corotational}}};
+}
+constexpr auto names_of(Axis) { return Names<Axis, 3>{{{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}}}; }
+constexpr auto names_of(LoadAxes) {
+  return Names<LoadAxes, 2>{{{"global", LoadAxes::global}, {"local", LoadAxes::local}}};
 }
 constexpr auto names_of(Dof) {
   return Names<Dof, 6>{

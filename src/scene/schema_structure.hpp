@@ -35,25 +35,85 @@ inline constexpr std::string_view mass_row[]{"node", "mass..."};
 constexpr RowKeys row_keys(const MassTable*) { return mass_row; }
 constexpr bool is_map(const MassTable*) { return true; }
 
+inline constexpr std::string_view geometry_text =
+    "small displacements, with the axial force on the chord's shift (P-Delta), or displacements and rotations of any size";
+
+template <class Archive>
+void visit(Archive& ar, Integration& i) {
+  ar(Field{"rule", "\"lobatto\", \"legendre\", \"radau\" (Gauss), \"hinge-radau\" (plastic hinges at both ends), \"user\""},
+     i.rule);
+  ar(Field{"hinge_i", "hinge-radau: plastic hinge length at the first end", dimension::length, range::non_negative},
+     i.hinge_i);
+  ar(Field{"hinge_j", "the same at the second end", dimension::length, range::non_negative}, i.hinge_j);
+  ar(Field{"positions", "user: of the points along the beam, rising", {}, range::unit}, i.positions);
+  ar(Field{"weights", "user: parts of the length that the points stand for, sum 1", {}, range::unit}, i.weights);
+}
+constexpr std::string_view scalar_key(const Integration*) { return "rule"; }
+
+template <class Archive>
+void visit(Archive& ar, MemberMass& m) {
+  ar(Field{"per_length", "mass per length", dimension::mass_per_length, range::non_negative}, m.per_length);
+  ar(Field{"density", "in place of per_length: times the area of `section`", dimension::density, range::non_negative},
+     m.density);
+  ar(Field{"consistent", "with the beam's shape functions; false: lumped, half at each end"}, m.consistent);
+  ar(Field{"rotary_inertia", "also that of the cross-sections about their own axes"}, m.rotary_inertia);
+}
+constexpr std::string_view scalar_key(const MemberMass*) { return "per_length"; }
+
+template <class Archive>
+void visit(Archive& ar, ReleaseTable& r) {
+  ar(Field{"i", "at the first end: of `ux` (axial), `rx` (torsion), `ry`, `rz`, local axes"}, r.i);
+  ar(Field{"j", "at the second end"}, r.j);
+}
+
 template <class Archive>
 void visit(Archive& ar, BeamTable& b) {
   ar(required("id", "unique among the structure's elements"), b.id);
   ar(required("nodes", "from, to"), b.nodes);
-  ar(required("section", "section"), b.section);
+  ar(Field{.key = "section", .text = "section", .default_text = "**required**, or `sections`"}, b.section);
+  ar(Field{"sections",
+           "of a fiber beam, in place of `section`: at the first integration point, the interior ones, the last; or one a "
+           "point"},
+     b.sections);
   ar(Field{.key = "element", .text = "elastic or fiber beam-column", .default_text = "the structure's"}, b.element);
   ar(Field{.key = "points",
-           .text = "Gauss-Lobatto points of a fiber beam",
-           .range = gauss_points,
+           .text = "integration points of a fiber beam",
+           .range = integration_points,
            .default_text = "the structure's"},
      b.points);
-  ar(Field{.key = "geometry", .text = "linear or P-Delta", .default_text = "the structure's"}, b.geometry);
+  ar(Field{.key = "integration", .text = "of a fiber beam", .default_text = "the structure's"}, b.integration);
+  ar(Field{.key = "mass", .text = "the beam's own", .default_text = "the structure's member_mass"}, b.mass);
+  ar(Field{"releases", "moments, torsion or axial force that an end doesn't carry"}, b.releases);
+  ar(Field{.key = "geometry", .text = geometry_text, .default_text = "the structure's"}, b.geometry);
   ar(Field{.key = "orientation",
            .text = "vector in the local x-z plane",
            .default_text = "local y along global X in vertical members, upwards in others"},
      b.orientation);
+  ar(Field{.key = "offset_i",
+           .text = "rigid arm from the first node to the member's end, global axes",
+           .dimension = dimension::length,
+           .default_text = "none"},
+     b.offset_i);
+  ar(Field{.key = "offset_j",
+           .text = "likewise at the second node",
+           .dimension = dimension::length,
+           .default_text = "none"},
+     b.offset_j);
 }
 inline constexpr std::string_view beam_row[]{"id", "nodes", "nodes", "section"};
 constexpr RowKeys row_keys(const BeamTable*) { return beam_row; }
+
+template <class Archive>
+void visit(Archive& ar, LoadTable& l) {
+  ar(required("beams", "ids"), l.beams);
+  ar(Field{"axes", "of the components"}, l.axes);
+  ar(Field{"uniform", "along x, y, z, per length of the beam", dimension::stiffness}, l.uniform);
+  ar(Field{"force", "along x, y, z, at `position`", dimension::force}, l.force);
+  ar(Field{.key = "position", .text = "of the force, as a part of the beam's length", .range = range::unit, .default_text = "0.5"},
+     l.position);
+}
+inline constexpr std::string_view load_row[]{"beams", "uniform"};
+constexpr RowKeys row_keys(const LoadTable*) { return load_row; }
 
 template <class Archive>
 void visit(Archive& ar, BarTable& b) {
@@ -62,7 +122,7 @@ void visit(Archive& ar, BarTable& b) {
   ar(required("material", "material"), b.material);
   ar(required("area", "cross-section", dimension::area, range::positive), b.area);
   ar(Field{"pretension", "axial force at rest, positive in tension", dimension::force}, b.pretension);
-  ar(Field{.key = "geometry", .text = "linear or P-Delta", .default_text = "the structure's"}, b.geometry);
+  ar(Field{.key = "geometry", .text = geometry_text, .default_text = "the structure's"}, b.geometry);
 }
 inline constexpr std::string_view bar_row[]{"id", "nodes", "nodes", "material", "area", "pretension"};
 constexpr RowKeys row_keys(const BarTable*) { return bar_row; }
@@ -94,6 +154,23 @@ void visit(Archive& ar, SpringTable& s) {
   ar(Field{"stiffness", "by direction"}, s.stiffness);
   ar(Field{"damping", "dashpots by direction"}, s.damping);
   ar(Field{"law", "material laws by direction, in place of stiffness"}, s.law);
+  ar(Field{.key = "orient",
+           .text = "local axes that the directions mean: x, and a vector in the x-y plane",
+           .default_text = "the global axes"},
+     s.orient);
+}
+
+template <class Archive>
+void visit(Archive& ar, LinkTable& l) {
+  ar(required("id", "unique among the structure's elements"), l.id);
+  ar(required("nodes", "from, to; local x runs along them"), l.nodes);
+  ar(Field{"stiffness", "by direction, local axes"}, l.stiffness);
+  ar(Field{"damping", "dashpots by direction"}, l.damping);
+  ar(Field{"law", "material laws by direction, in place of stiffness"}, l.law);
+  ar(Field{.key = "in_plane", .text = "vector in the local x-y plane", .default_text = "local axes as a beam's"}, l.in_plane);
+  ar(Field{"shear_distance", "place of the springs along local y and z, as parts of the length from the first node", {},
+           range::unit},
+     l.shear_distance);
 }
 
 template <class Archive>
@@ -103,6 +180,14 @@ void visit(Archive& ar, TieTable& t) {
 }
 inline constexpr std::string_view tie_row[]{"master", "slaves..."};
 constexpr RowKeys row_keys(const TieTable*) { return tie_row; }
+
+template <class Archive>
+void visit(Archive& ar, DiaphragmTable& t) {
+  ar(required("master", "node that leads"), t.master);
+  ar(required("slaves", "nodes that follow"), t.slaves);
+  ar(Field{"normal", "of its plane, a global axis"}, t.normal);
+}
+constexpr RowKeys row_keys(const DiaphragmTable*) { return tie_row; }
 
 template <class Archive>
 void visit(Archive& ar, EqualDofTable& t) {
@@ -165,7 +250,9 @@ void visit(Archive& ar, DampingTable& d) {
 template <class Archive>
 void visit(Archive& ar, ExplicitStructure& s) {
   ar(Field{"element", "kind of the beams that don't say"}, s.element);
-  ar(Field{"points", "of the beams that don't say", {}, gauss_points}, s.points);
+  ar(Field{"points", "of the beams that don't say", {}, integration_points}, s.points);
+  ar(Field{"integration", "of the fiber beams that don't say"}, s.integration);
+  ar(Field{"member_mass", "of the beams that don't say"}, s.member_mass);
   ar(Field{"geometry", "of the elements that don't say"}, s.geometry);
   ar(Field{"may_move_freely", "a motion without stiffness is intended (a ball, a rolling mass)"}, s.may_move_freely);
   ar(required("nodes", "nodes"), s.nodes);
@@ -175,8 +262,10 @@ void visit(Archive& ar, ExplicitStructure& s) {
   ar(Field{"trusses", "bars in tension and compression"}, s.trusses);
   ar(Field{"cables", "bars in tension only"}, s.cables);
   ar(Field{"springs", "springs and dashpots of no length"}, s.springs);
+  ar(Field{"links", "springs and dashpots between nodes apart"}, s.links);
+  ar(Field{"loads", "static loads on beams"}, s.loads);
   ar(Field{"rigid_links", "all six DOFs follow as of one rigid body"}, s.rigid_links);
-  ar(Field{"diaphragms", "ux, uy and rz follow"}, s.diaphragms);
+  ar(Field{"diaphragms", "displacements in the plane and the rotation about its normal follow (ux, uy and rz)"}, s.diaphragms);
   ar(Field{"equal_dof", "listed DOFs follow"}, s.equal_dof);
   ar(Field{"slabs", "for contact and drawing; ties its nodes when rigid or a diaphragm"}, s.slabs);
   ar(Field{"initial_displacement", "at t = 0"}, s.initial_displacement);
@@ -187,13 +276,18 @@ void visit(Archive& ar, ExplicitStructure& s) {
 template <class Archive>
 void visit_members(Archive& ar, FrameMembers& m) {
   ar(required("section", "one, or one a story from the lowest"), m.section);
+  ar(Field{"end_section", "of fiber members: at their first and last integration point; one, or one a story"},
+     m.end_section);
   ar(Field{"element", "kind"}, m.element);
-  ar(Field{"points", "Gauss-Lobatto points of a fiber beam", {}, gauss_points}, m.points);
-  ar(Field{"geometry", "linear or P-Delta"}, m.geometry);
+  ar(Field{"points", "integration points of a fiber beam", {}, integration_points}, m.points);
+  ar(Field{"integration", "of fiber beams"}, m.integration);
+  ar(Field{"mass", "the members' own"}, m.mass);
+  ar(Field{"geometry", geometry_text}, m.geometry);
 }
 template <class Archive>
-void visit(Archive& ar, FrameMembers& m) {
+void visit(Archive& ar, FrameBeams& m) {
   visit_members(ar, m);
+  ar(Field{"load", "downwards, per length; one, or one a story", dimension::stiffness}, m.load);
 }
 template <class Archive>
 void visit(Archive& ar, FrameColumns& m) {

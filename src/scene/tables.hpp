@@ -62,14 +62,35 @@ struct MassTable {
   std::vector<double> inertia;  // [kg m2], none or three
 };
 
+// Directions that an end of a beam releases, local axes.
+struct ReleaseTable {
+  DofSet i, j;
+};
+
 struct BeamTable {
   Reference id;
   std::vector<Reference> nodes;
   Reference section;
+  std::vector<Reference> sections;  // in place of `section`
   std::optional<BeamKind> element;  // default: the structure's
   std::optional<int> points;
+  std::optional<Integration> integration;
+  std::optional<MemberMass> mass;
+  std::optional<ReleaseTable> releases;
   std::optional<Geometry> geometry;
   std::optional<std::array<double, 3>> orientation;
+  std::optional<Vector3> offset_i, offset_j;  // [m]
+};
+
+enum class LoadAxes { global, local };
+
+struct LoadTable {
+  Location at;
+  std::vector<Reference> beams;
+  LoadAxes axes = LoadAxes::global;
+  std::optional<std::array<double, 3>> uniform;  // [N/m]
+  std::optional<std::array<double, 3>> force;    // [N]
+  std::optional<double> position;                // of the force
 };
 
 struct BarTable {  // truss or cable
@@ -98,11 +119,30 @@ struct SpringTable {
   StiffnessTable stiffness;
   DashpotTable damping;
   LawTable law;
+  std::optional<std::array<std::array<double, 3>, 2>> orient;  // local x, a vector in the local x-y plane
 };
 
-struct TieTable {  // rigid link or diaphragm
+struct LinkTable {
+  Reference id;
+  std::vector<Reference> nodes;
+  StiffnessTable stiffness;
+  DashpotTable damping;
+  LawTable law;
+  std::optional<std::array<double, 3>> in_plane;
+  std::array<double, 2> shear_distance{0.5, 0.5};
+};
+
+struct TieTable {  // rigid link
   Reference master;
   std::vector<Reference> slaves;
+};
+
+enum class Axis { x, y, z };
+
+struct DiaphragmTable {
+  Reference master;
+  std::vector<Reference> slaves;
+  Axis normal = Axis::z;
 };
 
 struct EqualDofTable {
@@ -154,6 +194,8 @@ struct ExplicitStructure {
   Location at;
   BeamKind element = BeamKind::elastic;  // defaults of the beams
   int points = ElementDescription{}.points;
+  Integration integration;
+  MemberMass member_mass;
   Geometry geometry = Geometry::linear;
   bool may_move_freely = false;
   std::vector<NodeTable> nodes;
@@ -162,7 +204,10 @@ struct ExplicitStructure {
   std::vector<BeamTable> beams;
   std::vector<BarTable> trusses, cables;
   std::vector<SpringTable> springs;
-  std::vector<TieTable> rigid_links, diaphragms;
+  std::vector<LinkTable> links;
+  std::vector<LoadTable> loads;
+  std::vector<TieTable> rigid_links;
+  std::vector<DiaphragmTable> diaphragms;
   std::vector<EqualDofTable> equal_dof;
   std::vector<SlabTable> slabs;
   std::vector<InitialDisplacement> initial_displacement;

@@ -28,10 +28,18 @@ std::shared_ptr<const FiberSection> rectangle(const UniaxialLaw& law) {
   return std::make_shared<FiberSection>(fibers, 5e4);
 }
 
+FiberMember fiber_member(const BeamFrame& frame, const UniaxialLaw& law = steel) {
+  return {frame, gauss_lobatto(5), std::vector<std::shared_ptr<const FiberSection>>(5, rectangle(law))};
+}
+
+MemberLoad some_load() { return {Vector3(300, -900, 400), {{0.3, Vector3(200, 1500, -700)}}}; }
+const Releases hinges{{false, true, false, true, true, false}};
+
 struct Case {
   std::string name;
   std::unique_ptr<ElementGroup> group;
-  bool rigid_rotation = true;  // small rigid rotations make no force (P-Delta and pretension: only translations)
+  bool rigid_rotation = true;  // small rigid rotations make no force (P-Delta and pretension: only translations; corotational: corotational_test.cpp)
+  bool loaded = false;         // between the ends
 };
 
 std::vector<Case> all_elements() {
@@ -39,25 +47,39 @@ std::vector<Case> all_elements() {
   const ElementNodes nodes{0, 1};
   const BeamFrame frame = skew_frame();
   const ElasticSection section{210e9, 81e9, 3e-3, 1e-5, 4e-6, 8e-8};
-  for (const bool p_delta : {false, true}) {
-    const std::string suffix = p_delta ? ", P-Delta" : "";
-    auto elastic = std::make_unique<ElasticBeams>(p_delta);
-    elastic->add(nodes, "e", frame, section, {});
-    cases.push_back({"elastic" + suffix, std::move(elastic), !p_delta});
-    auto displacement = std::make_unique<DisplacementBeams>(p_delta, 5);
-    displacement->add(nodes, "d", frame, rectangle(steel), {});
-    cases.push_back({"displacement" + suffix, std::move(displacement), !p_delta});
-    auto force = std::make_unique<ForceBeams>(p_delta, 5);
-    force->add(nodes, "f", frame, rectangle(steel), {});
-    cases.push_back({"force" + suffix, std::move(force), !p_delta});
-    auto truss = std::make_unique<Trusses>(Trusses::Kind::nonlinear, p_delta);
+  for (const Geometry geometry : {Geometry::linear, Geometry::p_delta, Geometry::corotational}) {
+    const std::string suffix = geometry == Geometry::linear ? "" : geometry == Geometry::p_delta ? ", P-Delta" : ", corotational";
+    const bool small = geometry == Geometry::linear;
+    auto elastic = std::make_unique<ElasticBeams>(geometry);
+    elastic->add(nodes, "e", {frame, section});
+    cases.push_back({"elastic" + suffix, std::move(elastic), small});
+    auto displacement = std::make_unique<DisplacementBeams>(geometry);
+    displacement->add(nodes, "d", fiber_member(frame));
+    cases.push_back({"displacement" + suffix, std::move(displacement), small});
+    auto force = std::make_unique<ForceBeams>(geometry);
+    force->add(nodes, "f", fiber_member(frame));
+    cases.push_back({"force" + suffix, std::move(force), small});
+    auto truss = std::make_unique<Trusses>(Trusses::Kind::nonlinear, geometry);
     truss->add(nodes, "t", frame, steel, 2e-4, 0);
-    cases.push_back({"truss" + suffix, std::move(truss), !p_delta});
+    cases.push_back({"truss" + suffix, std::move(truss), small});
+    if (geometry == Geometry::corotational) continue;  // no loads
+    auto special_elastic = std::make_unique<ElasticBeams>(geometry);
+    special_elastic->add(nodes, "le", {frame, {210e9, 81e9, 3e-3, 1e-5, 4e-6, 8e-8, 1e-3, 8e-4}, {}, some_load(), hinges});
+    cases.push_back({"elastic with shear, load and releases" + suffix, std::move(special_elastic), small, true});
+    FiberMember member = fiber_member(frame);
+    member.load = some_load();
+    member.releases = hinges;
+    auto special_displacement = std::make_unique<DisplacementBeams>(geometry);
+    special_displacement->add(nodes, "ld", member);
+    cases.push_back({"displacement with load and releases" + suffix, std::move(special_displacement), small, true});
+    auto special_force = std::make_unique<ForceBeams>(geometry);
+    special_force->add(nodes, "lf", member);
+    cases.push_back({"force with load and releases" + suffix, std::move(special_force), small, true});
   }
-  auto wrapped = std::make_unique<ForceBeams>(false, 5);
-  wrapped->add(nodes, "w", frame, rectangle(Parallel{{inner(steel), inner(InitStrain{inner(ENT{1e9}), 1e-4})}}), {});
+  auto wrapped = std::make_unique<ForceBeams>(Geometry::linear);
+  wrapped->add(nodes, "w", fiber_member(frame, Parallel{{inner(steel), inner(InitStrain{inner(ENT{1e9}), 1e-4})}}));
   cases.push_back({"force-based, wrapped", std::move(wrapped), false});
-  auto cable = std::make_unique<Trusses>(Trusses::Kind::cable, false);
+  auto cable = std::make_unique<Trusses>(Trusses::Kind::cable, Geometry::linear);
   cable->add(nodes, "c", frame, Elastic{160e9}, 1e-4, 2e3);
   cases.push_back({"cable", std::move(cable), false});
   SpringProperties properties;
@@ -69,6 +91,11 @@ std::vector<Case> all_elements() {
   auto spring = std::make_unique<Springs>(false);
   spring->add(nodes, "s", properties);
   cases.push_back({"spring", std::move(spring), false});
+  properties.length = frame.length;
+  properties.shear_distance = Vector2(0.3, 0.8);
+  auto link = std::make_unique<Springs>(false);
+  link->add(nodes, "l", properties);
+  cases.push_back({"link", std::move(link)});
   return cases;
 }
 
@@ -77,6 +104,7 @@ class Probe {
   explicit Probe(const ElementGroup& group) : group_(group) {
     committed_ = VectorX::Zero(std::max(1, group.history_begin(1)));
     group.initialize_history(0, committed_.data());
+    if (double* const factor = group.load_factor(0, committed_.data())) *factor = 1;
     trial_ = committed_;
   }
   Vector12 force(const Vector12& u, Matrix12* tangent = nullptr) {
@@ -158,7 +186,7 @@ TEST_CASE("responding leaves the committed history as it was, and repeats to the
 
 TEST_CASE("element forces are in equilibrium with each other about any point") {
   for (const Case& c : all_elements()) {
-    if (c.name == "spring" || c.name.find("P-Delta") != std::string::npos) continue;  // zero length; deformed equilibrium
+    if (c.loaded || c.name == "spring" || c.name.ends_with("P-Delta") || c.name.ends_with("corotational")) continue;  // zero length; deformed equilibrium
     CAPTURE(c.name);
     Probe probe(*c.group);
     const Vector12 f = probe.force(large_displacement());
@@ -173,8 +201,8 @@ TEST_CASE("a cantilever of one elastic beam bends by FL^3/3EI and twists by TL/G
   const double L = 2, F = 1e3;
   const ElasticSection s{210e9, 81e9, 3e-3, 1e-5, 4e-6, 8e-8};
   const BeamFrame frame(Vector3::Zero(), Vector3(L, 0, 0), beam_axes(Vector3::Zero(), Vector3(L, 0, 0), Vector3::UnitZ()));
-  ElasticBeams beams(false);
-  beams.add({0, 1}, "e", frame, s, {});
+  ElasticBeams beams(Geometry::linear);
+  beams.add({0, 1}, "e", {frame, s});
   Vector12 force;
   Matrix12 k;
   beams.respond(0, Vector12::Zero(), nullptr, nullptr, force, &k);
@@ -188,24 +216,11 @@ TEST_CASE("a cantilever of one elastic beam bends by FL^3/3EI and twists by TL/G
 
 TEST_CASE("a cable is slack below its pretension and carries EA/L above") {
   const BeamFrame frame(Vector3::Zero(), Vector3(2, 0, 0), beam_axes(Vector3::Zero(), Vector3(2, 0, 0), {}));
-  Trusses cables(Trusses::Kind::cable, false);
+  Trusses cables(Trusses::Kind::cable, Geometry::linear);
   cables.add({0, 1}, "c", frame, Elastic{160e9}, 1e-4, 2e3);
   Probe probe(cables);
   const auto pull = [&](double elongation) { return probe.force(elongation * Vector12::Unit(6))[6]; };
   CHECK(pull(0) == doctest::Approx(2e3));
   CHECK(pull(1e-3) == doctest::Approx(2e3 + 160e9 * 1e-4 / 2 * 1e-3));
   CHECK(pull(-1e-3) == 0);
-}
-
-TEST_CASE("Gauss-Lobatto rules of 3 to 10 points integrate polynomials of degree 2n - 3 exactly") {
-  for (int n = 3; n <= 10; ++n) {
-    const Quadrature rule = gauss_lobatto(n);
-    CHECK(rule.position.front() == 0);
-    CHECK(rule.position.back() == 1);
-    for (int degree = 0; degree <= 2 * n - 3; ++degree) {
-      double sum = 0;
-      for (std::size_t i = 0; i < rule.weight.size(); ++i) sum += rule.weight[i] * std::pow(rule.position[i], degree);
-      CHECK(sum == doctest::Approx(1.0 / (degree + 1)).epsilon(1e-14));
-    }
-  }
 }

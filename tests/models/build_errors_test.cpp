@@ -154,6 +154,19 @@ TEST_CASE("a member without length, or with an orientation along it, is an error
   CHECK(error_of(d) == "s.toml:7:3: error: element 'a.e1': orientation vector parallel to the member");
 }
 
+TEST_CASE("offsets that leave a member no length, or of a truss, are errors") {
+  ModelDescription d = column();
+  only(d).elements[0].at = at(7);
+  only(d).elements[0].offset = {Vector3(0, 0, 1), Vector3(0, 0, -1.5)};
+  CHECK(error_of(d) == "s.toml:7:3: error: element 'a.e1': zero length");
+  d = column();
+  d.materials.push_back({"m", {}, Elastic{210e9}});
+  only(d).elements.push_back(bar("t", "1", "2", "m", 1e-4));
+  only(d).elements.back().at = at(8);
+  only(d).elements.back().offset[0] = Vector3(0.1, 0, 0);
+  CHECK(error_of(d) == "s.toml:8:3: error: element 'a.t': a truss has no offsets, they would bend it");
+}
+
 TEST_CASE("a node that nothing holds in one direction is an error that names the direction") {
   ModelDescription d = column();
   only(d).nodes.push_back({"3", at(9), Vector3(1, 0, 0)});

@@ -94,6 +94,24 @@ TEST_CASE("a node of a diaphragm follows in the plane and about z, and is free o
   CHECK((u.segment<6>(full_dof(model, "a.1", 0)) - expected).norm() < 8 * epsilon);
 }
 
+TEST_CASE("a diaphragm normal to any axis moves as a rigid body in its plane") {
+  const Vector3 arm(3, 2, -1.5);
+  for (int normal = 0; normal < 3; ++normal) {
+    CAPTURE(normal);
+    ModelDescription d = body(ConstraintKind::diaphragm, {arm});
+    d.structures[0].constraints[0].normal = normal;
+    d.structures[0].masses.push_back(mass("1", 1, Vector3::Ones()));
+    const Model model = build(d);
+    REQUIRE(model.dofs.size() == 9);
+    VectorX q = VectorX::Zero(9);
+    q.head<6>() << 0.1, 0.2, 0.3, 0.01, 0.02, 0.05;
+    const Vector3 axis = Vector3::Unit(normal), in_plane = Vector3::Ones() - axis, turn = q[3 + normal] * axis;
+    Vector6 expected;
+    expected << in_plane.cwiseProduct(q.head<3>() + turn.cross(arm)), turn;
+    CHECK((model.dofs.expand(q).segment<6>(full_dof(model, "a.1", 0)) - expected).norm() < 8 * epsilon);
+  }
+}
+
 TEST_CASE("equal DOFs are equal, the others stay free") {
   ModelDescription d = body(ConstraintKind::equal_dof, {{3, 2, 1}});
   d.structures[0].constraints[0].dofs = {true, false, true, false, false, true};

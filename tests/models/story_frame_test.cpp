@@ -21,7 +21,7 @@ StoryFrame two_story() {
   frame.origin = Vector3(-1.6, -1.1, 0);
   frame.columns.section = {{"HEA100", {}}};
   frame.columns.element = BeamKind::force_based;
-  frame.beams = FrameMembers{{{"beam", {}}}};
+  frame.beams.emplace().section = {{"beam", {}}};
   frame.slab = {SlabKind::links, {"slab", {}}, 0.12};
   frame.braces =
       FrameBraces{{BracePlane::x_low, BracePlane::x_high}, BarKind::truss, {"cable", {}}, {1.61229e-4, 2.44428e-4}, 0};
@@ -213,4 +213,34 @@ TEST_CASE("a frame whose lists don't fit its stories is refused") {
   frame.height = {1, 2, 3};
   CHECK_THROWS_WITH_AS(expand(frame), "left: height has 3 values, must have one, or one for each of the 2 stories",
                        InputError);
+}
+
+TEST_CASE("beams of a frame carry their line load downwards, story by story; end sections, integration and mass reach the members") {
+  StoryFrame frame = two_story();
+  frame.beams->load = {5e3, 0};
+  frame.beams->mass = {0, 7850, true, false};
+  frame.columns.element = BeamKind::force_based;
+  frame.columns.end_section = {{"weak", {}}};
+  frame.columns.integration = {"hinge-radau", 0.2, 0.2, {}, {}};
+  const StructureDescription s = expand(frame);
+  std::size_t loaded = 0;
+  for (const ElementDescription& e : s.elements) {
+    if (e.section.name != "beam") continue;
+    CHECK(e.mass == frame.beams->mass);
+    for (const LoadDescription& load : s.loads) {
+      if (load.elements.front().name != e.id) continue;
+      ++loaded;
+      CHECK_FALSE(load.local);
+      CHECK(load.uniform == Vector3(0, 0, -5e3));
+    }
+  }
+  CHECK(loaded == s.loads.size());
+  CHECK(loaded == 4);  // one bay: four beams of the first story
+  const ElementDescription& column = element(s, "1");
+  REQUIRE(column.sections.size() == 3);
+  CHECK(column.sections[0].name == "weak");
+  CHECK(column.sections[1].name == column.section.name);
+  CHECK(column.integration == frame.columns.integration);
+  frame.beams->load = {1, 2, 3};
+  CHECK(faults(frame).front() == "beams.load has 3 values, must have one, or one for each of the 2 stories");
 }

@@ -58,6 +58,44 @@ TEST_CASE("beams take what they don't say from the structure") {
   CHECK(e[1].geometry == Geometry::linear);
 }
 
+TEST_CASE("integration, mass, releases and sections of a beam are its own or the structure's; elastic beams have no rule") {
+  const auto e = structure(
+                     "element = \"force-based\"\nintegration = \"legendre\"\nmember_mass = \"90 kg/m\"\n"
+                     "beams = [[1, 1, 2, \"c\"], { id = 2, nodes = [2, 3], section = \"b\", element = \"elastic\", mass = 0,"
+                     " releases = { i = [\"ry\"], j = [\"rz\", \"rx\"] } }, { id = 3, nodes = [3, 4], sections = [\"a\", \"b\", \"c\"],"
+                     " integration = { rule = \"hinge-radau\", hinge_i = \"20 cm\", hinge_j = 0.1 },"
+                     " mass = { density = \"7.85 t/m3\", consistent = true } }]")
+                     .elements;
+  REQUIRE(e.size() == 3);
+  CHECK(e[0].integration.rule == "legendre");
+  CHECK(e[0].mass.per_length == 90);
+  CHECK_FALSE(e[0].mass.consistent);
+  CHECK(e[1].integration == Integration{});
+  CHECK_FALSE(e[1].mass.any());
+  CHECK(e[1].releases.basic == std::array<bool, 6>{false, false, true, true, false, true});
+  CHECK(e[2].integration.rule == "hinge-radau");
+  CHECK(e[2].integration.hinge_i == 0.2);
+  CHECK(e[2].section.name == "b");
+  CHECK(test::names(e[2].sections) == "a b c ");
+  CHECK(e[2].mass.density == doctest::Approx(7850));
+  CHECK(e[2].mass.consistent);
+}
+
+TEST_CASE("loads on beams are in global axes unless they say local, a force acts at midspan unless it says where") {
+  const auto loads = structure(
+                         "loads = [[1, [0, 0, \"-5 kN/m\"]], { beams = [1, 2], axes = \"local\", force = [0, \"-2 kN\", 0] },"
+                         " { beams = 2, force = [1, 2, 3], position = 0.25 }]")
+                         .loads;
+  REQUIRE(loads.size() == 3);
+  CHECK(loads[0].uniform == Vector3(0, 0, -5000));
+  CHECK_FALSE(loads[0].local);
+  CHECK(test::names(loads[1].elements) == "1 2 ");
+  CHECK(loads[1].local);
+  CHECK(loads[1].force == Vector3(0, -2000, 0));
+  CHECK(loads[1].position == 0.5);
+  CHECK(loads[2].position == 0.25);
+}
+
 TEST_CASE("a rigid slab or diaphragm ties its corners to its center") {
   const auto rigid =
       structure("slabs = [{ id = \"s\", corners = [2, 3, 4], center = 5, nodes = [1], kind = \"rigid\" }]");

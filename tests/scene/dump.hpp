@@ -24,7 +24,7 @@ inline std::string name(const std::optional<Reference>& reference) { return refe
 inline std::string dump(const SectionDescription& s) {
   std::string out = "section " + s.name;
   if (const auto* e = std::get_if<ElasticSection>(&s.kind))
-    out += fmt::format(" {} {} {} {} {} {}", e->E, e->G, e->A, e->Iz, e->Iy, e->J);
+    out += fmt::format(" {} {} {} {} {} {} {} {}", e->E, e->G, e->A, e->Iz, e->Iy, e->J, e->Ay, e->Az);
   if (const auto* f = std::get_if<FiberSectionDescription>(&s.kind)) {
     out += fmt::format(" GJ {}", f->torsion_stiffness);
     for (const auto& fiber : f->fibers)
@@ -36,15 +36,23 @@ inline std::string dump(const SectionDescription& s) {
 }
 
 inline std::string dump(const ElementDescription& e) {
-  return fmt::format("element {} {} {}-{} section {} material {} area {} pretension {} points {} geometry {} {}\n",
+  const Integration& r = e.integration;
+  std::string out =
+      fmt::format("sections {} rule {} {} {} {} {} releases {} mass {} {} {} {} ", names(e.sections), r.rule, r.hinge_i, r.hinge_j,
+                  numbers(r.positions), numbers(r.weights), fmt::join(e.releases.basic, " "), e.mass.per_length,
+                  e.mass.density, e.mass.consistent, e.mass.rotary_inertia);
+  return out +
+         fmt::format("element {} {} {}-{} section {} material {} area {} pretension {} points {} geometry {} {} offsets {} {}\n",
                      e.id, int(e.kind), e.node_i.name, e.node_j.name, e.section.name, e.material.name, e.area,
-                     e.pretension, e.points, int(e.geometry), e.orientation ? numbers(*e.orientation) : "");
+                     e.pretension, e.points, int(e.geometry), e.orientation ? numbers(*e.orientation) : "",
+                     numbers(e.offset[0]), numbers(e.offset[1]));
 }
 
 inline std::string dump(const SpringDescription& s) {
   std::string out = fmt::format("spring {} {}-{} {} {}", s.id, s.node_i.name, name(s.node_j), numbers(s.stiffness),
                                 numbers(s.damping));
   for (const auto& law : s.law) out.append(" ").append(name(law));
+  out += numbers(s.x) + (s.in_plane ? numbers(*s.in_plane) : "") + (s.shear_distance ? numbers(*s.shear_distance) : "");
   return out + "\n";
 }
 
@@ -64,9 +72,11 @@ inline std::string dump(const StructureDescription& s) {
     out += fmt::format("mass {} {} {}\n", m.node.name, numbers(m.mass), numbers(m.inertia));
   for (const auto& e : s.elements) out += dump(e);
   for (const auto& p : s.springs) out += dump(p);
+  for (const auto& l : s.loads)
+    out += fmt::format("load {} {} {} {} {}\n", names(l.elements), l.local, numbers(l.uniform), numbers(l.force), l.position);
   for (const auto& c : s.constraints)
     out +=
-        fmt::format("constraint {} {}: {} {}\n", int(c.kind), c.master.name, names(c.slaves), fmt::join(c.dofs, " "));
+        fmt::format("constraint {} {}: {} {} {}\n", int(c.kind), c.master.name, names(c.slaves), fmt::join(c.dofs, " "), c.normal);
   for (const auto& p : s.slabs)
     out += fmt::format("slab {} {} center {} {} {}\n", p.id, names(p.corners), name(p.center), p.thickness, p.rigid);
   out += dump(s.damping);

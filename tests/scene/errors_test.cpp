@@ -42,7 +42,7 @@ TEST_CASE("a value outside its range is an error with the range") {
   CHECK(error("[analysis]\ntheta = 0.4") == "s.toml:2:9: error: theta = 0.4, must lie in [0.5, 1]");
   CHECK(error("[analysis]\ndt = 0") == "s.toml:2:6: error: dt = 0, must be positive");
   CHECK(error("[analysis]\ndt = \"-1 ms\"") == "s.toml:2:6: error: dt = \"-1 ms\", must be positive");
-  CHECK(error("[structure.a]\nnodes = []\npoints = 11") == "s.toml:3:10: error: points = 11, must lie in [3, 10]");
+  CHECK(error("[structure.a]\nnodes = []\npoints = 11") == "s.toml:3:10: error: points = 11, must lie in [2, 10]");
   CHECK(error("[structure.a]\nnodes = []\nmasses = [[1, \"-1 kg\"]]") ==
         "s.toml:3:15: error: mass = \"-1 kg\", must not be negative");
   CHECK(error("[material.a]\nlaw = \"Steel01\"\nfy = 1\nE = 2\nb = 1") == "s.toml:5:5: error: b = 1, must be below 1");
@@ -112,6 +112,28 @@ TEST_CASE("a missing key is an error at its table") {
   CHECK(error("[material.a]\nE = 1") ==
         fmt::format("s.toml:1:11: error: missing key 'law'; known: {}", fmt::join(law_names(), ", ")));
   CHECK(error("[structure.a]\nnodes = [[1, 0, 0]]") == "s.toml:2:10: error: missing key 'z'");
+}
+
+TEST_CASE("what a beam says of its sections, integration, mass, releases and loads must fit together") {
+  const auto beam = [](const std::string& keys) {
+    return error("[structure.a]\nnodes = []\nbeams = [{ id = 1, nodes = [1, 2]," + keys + " }]");
+  };
+  CHECK(beam("points = 4") == "s.toml:3:10: error: missing key 'section'");
+  CHECK(beam("section = \"s\", sections = [\"s\"]") == "s.toml:3:61: error: a beam has either section or sections");
+  CHECK(beam("section = \"s\", integration = \"legendr\"") ==
+        "s.toml:3:64: error: there is no integration rule 'legendr'; did you mean 'legendre'?");
+  CHECK(beam("section = \"s\", mass = { per_length = 1, density = 2 }") ==
+        "s.toml:3:85: error: a mass has either per_length or density");
+  CHECK(beam("section = \"s\", mass = { consistent = true }") ==
+        "s.toml:3:57: error: a mass needs per_length or density");
+  CHECK(beam("section = \"s\", releases = { i = [\"uy\"] }") ==
+        "s.toml:3:67: error: an end of a beam can release ux, rx, ry and rz, not a shear force");
+  const auto load = [](const std::string& keys) {
+    return error("[structure.a]\nnodes = []\nloads = [{ beams = 1, " + keys + " }]");
+  };
+  CHECK(load("axes = \"local\"") == "s.toml:3:10: error: a load needs uniform or force");
+  CHECK(load("uniform = [0, 0, 1], position = 0.5") == "s.toml:3:55: error: a position is that of a force, and there is none");
+  CHECK(load("uniform = [0, 0, \"1 kN\"]") == "s.toml:3:40: error: uniform = \"1 kN\" is a force, must be a stiffness (N/m)");
 }
 
 TEST_CASE("an empty name is an error") {

@@ -163,6 +163,8 @@ A = 0.1
 Iz = 1e-3
 Iy = 1e-4
 J = 1e-4
+Ay = 0.08
+Az = 0.07
 depth = 0.3
 width = 0.2
 [section.fibers]
@@ -205,22 +207,38 @@ first_bar = "22.5 deg"
 element = "displacement"
 points = 4
 geometry = "p-delta"
+integration = "legendre"
+member_mass = { density = 7850, rotary_inertia = true }
 nodes = [[1, 0, 0, 0], ["top", 0, 0, "3 m"], { id = 3, x = 1, y = 0, z = 3 }, [4, 1, 1, 3], [5, 0, 1, 3], [6, 0.5, 0.5, 3]]
 supports = { 1 = "fixed", 3 = "pinned", 4 = ["ux", "rz"] }
 masses = { top = "1 t", 3 = [1, 2, 3], 4 = { mass = 5, inertia = [0, 0, "7 kg m2"] } }
 beams = [
   [1, 1, "top", "shape"],
   { id = "b", nodes = ["top", 3], section = "constants", element = "elastic", geometry = "linear", orientation = [0, 1, 1] },
-  { id = 3, nodes = [3, 4], section = "fibers", element = "force-based", points = 7 },
+  { id = 3, nodes = [3, 4], section = "fibers", element = "force-based", points = 7, mass = "20 kg/m" },
+  { id = 4, nodes = [3, 5], section = "shape", geometry = "corotational", offset_i = ["20 cm", 0, -0.1], offset_j = [-0.2, 0, 0] },
+  { id = "h", nodes = [1, 5], sections = ["shape", "constants", "fibers"], element = "force-based", integration = { rule = "hinge-radau", hinge_i = "30 cm", hinge_j = 0.2 }, releases = { i = ["rx", "ry"], j = ["rz"] }, mass = { per_length = 3, consistent = true } },
+  { id = "u", nodes = [4, 5], section = "shape", releases = { i = "ux", j = ["ry", "rz"] }, integration = { rule = "user", positions = [0, 0.4, 1], weights = [0.2, 0.5, 0.3] } },
+]
+loads = [
+  ["b", [0, 0, "-5 kN/m"]],
+  [[1, 3], [1, 2, 3]],
+  { beams = "h", axes = "local", force = [0, "-2 kN", 0], position = 0.3 },
+  { beams = ["u"], uniform = [0, 0, 1], force = [1, 0, 0] },
 ]
 trusses = [["t", 1, 3, "linear", "1 cm2"]]
 cables = [{ id = "c", nodes = [1, 4], material = "linear", area = 1e-4, pretension = "2 kN", geometry = "linear" }]
 springs = [
   { id = "s1", nodes = 1, stiffness = [1, 2, 3, 4, 5, 6] },
   { id = "s2", nodes = [3, 4], stiffness = { ry = "3 kN m/rad" }, damping = { ux = "2 N s/m", rz = 1 }, law = { uz = "linear" } },
+  { id = "s3", nodes = 4, stiffness = { ux = 1 }, orient = [[1, 1, 0], [0, 0, 1]] },
+]
+links = [
+  { id = "l1", nodes = [3, 4], stiffness = { ux = 1, uy = 2 }, law = { rz = "linear" }, shear_distance = [0.2, 0.7] },
+  { id = "l2", nodes = ["top", 4], damping = { ux = 3 }, in_plane = [0, 0, 1] },
 ]
 rigid_links = [["top", 5], { master = 3, slaves = [4] }]
-diaphragms = [[3, 4, 5]]
+diaphragms = [[3, 4, 5], { master = "top", slaves = [3], normal = "x" }]
 equal_dof = [["top", 3, ["ux", "uy"]], [4, 5, ["rx"]]]
 slabs = [
   { id = 1, corners = ["top", 3, 4, 5], center = 6, kind = "diaphragm", thickness = "20 cm" },
@@ -237,8 +255,8 @@ height = ["4 m", 3, 3]
 plan = [["3 m", "4 m"], 5]
 bays = [1, 2]
 origin = [20, 0, 0]
-columns = { section = ["shape", "shape", "fibers"], element = "force-based", points = 4, geometry = "p-delta", depth = "y" }
-beams = { section = "constants" }
+columns = { section = ["shape", "shape", "fibers"], element = "force-based", points = 4, geometry = "p-delta", depth = "y", end_section = "shape" }
+beams = { section = "constants", load = ["10 kN/m", 0, 2], mass = { density = 2500, consistent = true } }
 slab = { kind = "diaphragm" }
 braces = { planes = ["-x", "+y"], kind = "cable", material = "linear", area = [3e-4, 2e-4, 1e-4], pretension = "1 kN" }
 base = "pinned"

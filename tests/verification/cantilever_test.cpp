@@ -63,9 +63,8 @@ class Pushover : public StageObserver {
 };
 
 Comparison compare(const std::string& kind_name, ElementKind kind, int elements, const std::string& law_name, const UniaxialLaw& law,
-                   Geometry geometry, const std::string& algorithm = "newton") {
-  const std::string file = "cantilever_" + kind_name + std::to_string(elements) + "_" + law_name +
-                           (geometry == Geometry::linear ? "_linear" : "_pdelta");
+                   Geometry geometry, const std::string& suffix, double tolerance = 1e-6, const std::string& algorithm = "newton") {
+  const std::string file = "cantilever_" + kind_name + std::to_string(elements) + "_" + law_name + "_" + suffix;
   CAPTURE(file);
   Diagnostics diagnostics;
   const Model model = build_model(cantilever(kind, law, geometry, elements), diagnostics);
@@ -95,26 +94,32 @@ Comparison compare(const std::string& kind_name, ElementKind kind, int elements,
     c.force_error = std::max(c.force_error, std::abs(pushover.factors[i] - reference[i][1]));
     c.sag_error = std::max(c.sag_error, std::abs(pushover.states[i][tip + 1] - reference[i][2]));
   }
-  CHECK(c.force_error < 1e-6 * c.peak_force);
-  CHECK(c.sag_error < 1e-6 * c.peak_sag);
+  CHECK(c.force_error < tolerance * c.peak_force);
+  CHECK(c.sag_error < tolerance * c.peak_sag);
   return c;
 }
 
-void compare_all(Geometry geometry, VerificationRows& rows) {
-  const Steel01 steel01{235e6, 210e9, 0.01};
-  const Steel02 steel02{235e6, 210e9, 0.01, 20.0, 0.925, 0.15};
-  struct Member {
-    std::string title, name;
-    ElementKind kind;
-    int elements;
-  };
-  for (const Member& m : {Member{"one displacement-based element", "disp", ElementKind::displacement_beam, 1},
-                          {"eight displacement-based elements", "disp", ElementKind::displacement_beam, 8},
-                          {"one force-based element", "force", ElementKind::force_beam, 1}}) {
-    const Comparison one = compare(m.name, m.kind, m.elements, "steel01", steel01, geometry);
-    rows.add(fmt::format("{}, Steel01: largest tip force, kN", m.title), 1e-3 * one.largest_force, 1e-3 * one.peak_force, relative(1e-6));
-    const Comparison two = compare(m.name, m.kind, m.elements, "steel02", steel02, geometry);
-    rows.add(fmt::format("{}, Steel02: largest tip force, kN", m.title), 1e-3 * two.largest_force, 1e-3 * two.peak_force, relative(1e-6));
+const Steel01 steel01{235e6, 210e9, 0.01};
+const Steel02 steel02{235e6, 210e9, 0.01, 20.0, 0.925, 0.15};
+
+struct Member {
+  std::string title, name;
+  ElementKind kind;
+  int elements;
+};
+const Member one_displacement{"one displacement-based element", "disp", ElementKind::displacement_beam, 1};
+const Member one_force{"one force-based element", "force", ElementKind::force_beam, 1};
+const Member eight_displacement{"eight displacement-based elements", "disp", ElementKind::displacement_beam, 8};
+
+void compare_all(const std::vector<Member>& members, Geometry geometry, const std::string& suffix, VerificationRows& rows,
+                 double tolerance = 1e-6) {
+  for (const Member& m : members) {
+    const Comparison one = compare(m.name, m.kind, m.elements, "steel01", steel01, geometry, suffix, tolerance);
+    rows.add(fmt::format("{}, Steel01: largest tip force, kN", m.title), 1e-3 * one.largest_force, 1e-3 * one.peak_force,
+             relative(tolerance));
+    const Comparison two = compare(m.name, m.kind, m.elements, "steel02", steel02, geometry, suffix, tolerance);
+    rows.add(fmt::format("{}, Steel02: largest tip force, kN", m.title), 1e-3 * two.largest_force, 1e-3 * two.peak_force,
+             relative(tolerance));
   }
 }
 
@@ -124,16 +129,31 @@ void compare_all(Geometry geometry, VerificationRows& rows) {
 VERIFICATION_CASE("Frames", "Cyclic pushover of a fiber cantilever, linear geometry",
                   "HEA140, 2.5 m, 200 kN along, cyclic tip displacement; OpenSees 3.7.1 with the same elements and fibers. The whole "
                   "history of force and shortening is within 1e-6 of its peak.") {
-  compare_all(Geometry::linear, rows);
+  compare_all({one_displacement, eight_displacement, one_force}, Geometry::linear, "linear", rows);
 }
 VERIFICATION_CASE("Frames", "Cyclic pushover of a fiber cantilever, P-Delta", "The same with the P-Delta transformation.") {
-  compare_all(Geometry::p_delta, rows);
+  compare_all({one_displacement, eight_displacement, one_force}, Geometry::p_delta, "pdelta", rows);
+}
+
+// OpenSees' spatial transformation takes the y and z axes of a member by Crisfield's midpoint rule, which leaves them
+// skew by the cube of the angle between the chord and the mean section: with one element a member, 4e-5 of the peak
+// force here. Its plane transformation has no such error, and equals ours.
+VERIFICATION_CASE("Frames", "Cyclic pushover of a fiber cantilever, corotational",
+                  "The same with the Corotational transformation: eight elements in space, one in a plane model. (One element in space "
+                  "differs by 4e-5, as the axes of OpenSees' spatial transformation are skew by the cube of the rotation.)") {
+  compare_all({eight_displacement}, Geometry::corotational, "corotational", rows);
+  compare_all({one_displacement, one_force}, Geometry::corotational, "corotational2d", rows);
+}
+TEST_CASE("cyclic pushovers of one corotational element in space differ from OpenSees' by its skew axes only") {
+  for (const Member& m : {one_displacement, one_force}) {
+    compare(m.name, m.kind, 1, "steel01", steel01, Geometry::corotational, "corotational", 1e-4);
+    compare(m.name, m.kind, 1, "steel02", steel02, Geometry::corotational, "corotational", 1e-4);
+  }
 }
 
 TEST_CASE("a column of eight yielding elements, where Newton takes sixty iterations, by line search and by Krylov acceleration") {
-  const Steel02 steel02{235e6, 210e9, 0.01, 20.0, 0.925, 0.15};
   for (const std::string algorithm : {"line-search", "krylov"}) {
     CAPTURE(algorithm);
-    compare("disp", ElementKind::displacement_beam, 8, "steel02", steel02, Geometry::linear, algorithm);
+    compare("disp", ElementKind::displacement_beam, 8, "steel02", steel02, Geometry::linear, "linear", 1e-6, algorithm);
   }
 }

@@ -5,7 +5,7 @@
 #include "integrators/static_analysis.hpp"
 #include "models/model.hpp"
 #include "tests/support/reference_data.hpp"
-#include "tests/verification/displacement_control.hpp"
+#include "tests/support/displacement_control.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;

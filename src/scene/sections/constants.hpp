@@ -24,6 +24,10 @@ void visit(Archive& ar, ConstantsSection& s) {
   ar(required("Iz", "second moment for bending in the local x-y plane", m4, range::positive), s.constants.Iz);
   ar(required("Iy", "second moment for bending in the local x-z plane", m4, range::positive), s.constants.Iy);
   ar(required("J", "torsion constant", m4, range::non_negative), s.constants.J);
+  ar(Field{"Ay", "shear area for forces along local y, Timoshenko's beam; 0: no shear deformation", dimension::area,
+           range::non_negative},
+     s.constants.Ay);
+  ar(Field{"Az", "the same along local z", dimension::area, range::non_negative}, s.constants.Az);
   ar(Field{"depth", "along local y, of the rectangle drawn; 0: none drawn", dimension::length, range::non_negative},
      s.depth);
   ar(Field{"width", "along local z, of the rectangle drawn", dimension::length, range::non_negative}, s.width);

@@ -1,13 +1,13 @@
-// Newton's method with one displacement prescribed: load = dead + factor * pattern, displacement[dof] = target.
+// Pushover by a prescribed displacement, for tests.
 #pragma once
 
 #include <doctest/doctest.h>
 
 #include "integrators/static_analysis.hpp"
-#include "models/model.hpp"
 
 namespace nsframe::test {
 
+// Newton with one displacement prescribed: load = dead + factor * pattern, displacement[dof] = target.
 class DisplacementControl {
  public:
   DisplacementControl(System& system, VectorX dead, int dof) : system_(system), dead_(std::move(dead)), dof_(dof) {}

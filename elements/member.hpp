@@ -1,0 +1,60 @@
+// What all two-node members share: a frame, a geometric transformation, and a history that begins with the
+// transformation's. A kind of member is a class derived from Members that answers basic deformations with basic forces.
+#pragma once
+
+#include "elements/member_geometry.hpp"
+#include "elements/member_load.hpp"
+
+namespace nsframe {
+
+class Members : public ElementGroup {
+ public:
+  bool linear() const override { return geometry_.linear() && linear_basic(); }
+  bool symmetric() const override { return geometry_.symmetric(); }
+  int history_begin(int element) const override { return history_begin_[static_cast<std::size_t>(element)]; }
+  double* load_factor(int element, double* history) const final {
+    return has_factor(element) ? history + geometry_.history_size() : nullptr;
+  }
+  void initialize_history(int element, double* history) const final;
+  void start_step(int element, const double* committed, double* trial) const final;
+  void respond(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
+               Matrix12* tangent) const final;
+  ElementPose pose(int element, const Vector12& displacement, const double* history) const final;
+  std::vector<SectionResult> sections(int element, const Vector12& displacement, const double* history) const final;
+
+  const BeamFrame& frame(int element) const { return frames_[static_cast<std::size_t>(element)]; }
+
+ protected:
+  explicit Members(const MemberGeometry& geometry) : geometry_(geometry) {}
+  // `history_size`: doubles of the member itself; `loaded`: load() is not empty.
+  void add(const ElementNodes& nodes, std::string id, const BeamFrame& frame, int history_size, bool loaded = false);
+
+  // The counterparts of ElementGroup's functions in the basic system; histories are the member's own part.
+  virtual bool linear_basic() const { return false; }
+  virtual void initialize_basic(int element, double* history) const { (void)element; (void)history; }
+  virtual void start_basic(int element, const double* committed, double* trial) const {
+    (void)element; (void)committed; (void)trial;
+  }
+  // `part`: of the member's load that acts; `rounding`: of the deformations [m, rad].
+  virtual void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
+                             double* trial, Vector6& force, Matrix6& tangent) const = 0;
+  virtual std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
+                                                    const double* history) const = 0;
+
+  const double* basic_history(int element, const double* history) const { return history + own_begin(element); }
+
+  // A beam with an outline, or a straight bar without.
+  ElementShape member_shape(int element, const SectionOutline* outline) const;
+  const MemberGeometry& geometry() const { return geometry_; }
+
+ private:
+  // A linear member carries its whole load always.
+  bool has_factor(int element) const { return !linear() && load(element) && !load(element)->empty(); }
+  int own_begin(int element) const { return geometry_.history_size() + (has_factor(element) ? 1 : 0); }
+
+  const MemberGeometry& geometry_;
+  std::vector<BeamFrame> frames_;
+  std::vector<int> history_begin_{0};
+};
+
+}  // namespace nsframe
