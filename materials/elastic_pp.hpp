@@ -29,6 +29,10 @@ struct ElasticPP {
   History<double> virgin() const { return {0, 0}; }
   double initial_tangent() const { return E; }
   double yield_strain() const { return std::min(epsyP, -compression_yield()); }
+  bool has_yielded(double strain, double stress) const {
+    return std::abs(strain - eps0 - stress / E) > 0.1 * yield_strain();
+  }
+
   template <class Visit, class Law>
   static void visit_parameters(Visit&& visit, Law& law) {
     using namespace parameter;

@@ -94,6 +94,9 @@ void Fatigue::initialize_history(double* history) const {
 }
 double Fatigue::initial_tangent() const { return nsframe::initial_tangent(material); }
 double Fatigue::yield_strain() const { return nsframe::yield_strain(material); }
+bool Fatigue::has_yielded(double strain, double stress) const {
+  return nsframe::has_yielded(material.law->law, strain, stress);
+}
 
 void Fatigue::respond(const PointArrays& p, Evaluate evaluate) const {
   double inside[wrapped_points];

@@ -30,6 +30,7 @@ struct Fatigue {
   void initialize_history(double* history) const;
   double initial_tangent() const;
   double yield_strain() const;
+  bool has_yielded(double strain, double stress) const;
   void respond(const PointArrays& points, Evaluate evaluate) const;
 };
 

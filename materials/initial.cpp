@@ -28,6 +28,9 @@ int InitStrain::history_size() const { return nsframe::history_size(material); }
 void InitStrain::initialize_history(double* history) const { start_at(epsInit, material, history); }
 double InitStrain::initial_tangent() const { return nsframe::initial_tangent(material); }
 double InitStrain::yield_strain() const { return nsframe::yield_strain(material); }
+bool InitStrain::has_yielded(double strain, double stress) const {
+  return nsframe::has_yielded(material.law->law, strain + epsInit, stress);
+}
 void InitStrain::respond(const PointArrays& p, Evaluate evaluate) const {
   respond_shifted(p, &epsInit, 0, 0, material, evaluate);
 }
@@ -79,6 +82,9 @@ void InitStress::initialize_history(double* history) const {
 }
 double InitStress::initial_tangent() const { return nsframe::initial_tangent(material); }
 double InitStress::yield_strain() const { return nsframe::yield_strain(material); }
+bool InitStress::has_yielded(double strain, double stress) const {
+  return nsframe::has_yielded(material.law->law, strain + initial_strain().value_or(0.0), stress);
+}
 void InitStress::respond(const PointArrays& p, Evaluate evaluate) const {
   respond_shifted(p, p.committed, 1, 1, material, evaluate);
   for (int i = 0; i < p.count; ++i) p.keep(i, 0, 1);

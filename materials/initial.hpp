@@ -21,6 +21,7 @@ struct InitStrain {
   void initialize_history(double* history) const;
   double initial_tangent() const;
   double yield_strain() const;
+  bool has_yielded(double strain, double stress) const;
   void respond(const PointArrays& points, Evaluate evaluate) const;
 };
 
@@ -43,6 +44,7 @@ struct InitStress {
   void initialize_history(double* history) const;
   double initial_tangent() const;
   double yield_strain() const;
+  bool has_yielded(double strain, double stress) const;
   void respond(const PointArrays& points, Evaluate evaluate) const;
 };
 

@@ -19,6 +19,9 @@ void MinMax::initialize_history(double* history) const {
 }
 double MinMax::initial_tangent() const { return nsframe::initial_tangent(material); }
 double MinMax::yield_strain() const { return nsframe::yield_strain(material); }
+bool MinMax::has_yielded(double strain, double stress) const {
+  return nsframe::has_yielded(material.law->law, strain, stress);
+}
 
 void MinMax::respond(const PointArrays& p, Evaluate evaluate) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();

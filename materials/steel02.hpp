@@ -47,6 +47,10 @@ struct Steel02 {
   History<double> virgin() const { return {sigInit / E, sigInit, -fy / E, fy / E, 0, 0, 0, 0, 0, 0}; }
   double initial_tangent() const { return E; }
   double yield_strain() const { return fy / E; }
+  bool has_yielded(double strain, double stress) const {
+    return std::abs(strain + (sigInit - stress) / E) > 0.1 * yield_strain();
+  }
+
   template <class Visit, class Law>
   static void visit_parameters(Visit&& visit, Law& law) {
     using namespace parameter;

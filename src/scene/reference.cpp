@@ -186,6 +186,7 @@ Pa kPa MPa GPa ksi, %; blanks or `*` multiply, each `/` divides by the one unit 
 Names and ids are texts or whole numbers; node and element ids are unique inside a structure, and a node is called
 `structure.node` from outside. `--set key=value` replaces or adds a value, by its dotted key: `--set analysis.dt=1e-4`,
 `--set structure.left.stories=3`; `contact.restitution` and other keys below `contact`, `static` and `motion` reach all of them.
+In a material of a spring, stresses are forces or moments and strains are displacements or angles, as bare numbers in SI.
 )";
 
 }  // namespace

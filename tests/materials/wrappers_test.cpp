@@ -164,6 +164,19 @@ TEST_CASE("initial stress and strain are there before anything moves") {
   CHECK(fault_of(InitStress{inner(ENT{E}), 1e6}).starts_with("sigInit"));
 }
 
+TEST_CASE("a law that starts strained or stressed has not yielded yet") {
+  const UniaxialLaw laws[] = {InitStress{inner(steel), 0.4 * fy}, InitStrain{inner(steel), 0.4 * yield},
+                              Steel02{fy, E, b, 20, 0.925, 0.15, 0, 1, 0, 1, 0.4 * fy}, ElasticPP{E, yield, 0, -0.4 * yield},
+                              MinMax{inner(InitStress{inner(steel), 0.4 * fy}), -1, 1}};
+  for (const UniaxialLaw& law : laws) {
+    Point point(law);
+    CHECK_FALSE(has_yielded(law, 0, point.probe(0).stress));
+    CHECK_FALSE(has_yielded(law, -0.4 * yield, point.move(-0.4 * yield).stress));
+    CHECK(has_yielded(law, 2 * yield, point.move(2 * yield).stress));
+    CHECK(has_yielded(law, 1.4 * yield, point.move(1.4 * yield).stress));
+  }
+}
+
 TEST_CASE("constant cycles fail by Coffin-Manson") {
   const double range = 0.05, E0 = 0.191, m = -0.458, life = std::pow(range / E0, 1 / m);  // cycles
   Point point(Fatigue{inner(Steel01{fy, E, b}), E0, m});
