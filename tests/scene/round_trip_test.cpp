@@ -175,6 +175,7 @@ rings = [{ material = "linear", center = [0.1, 0.2], radius = [0, "5 cm"], angle
 layers = [{ material = "linear", from = [0, 0], to = [0, 1], count = 3, diameter = "20 mm" }]
 arcs = [{ material = "linear", radius = 0.1, count = 5, area = "1 cm2" }]
 GJ = 1e5
+centred = true
 [section.tube]
 tube = ["200 mm", "100 mm", "8 mm"]
 forming = "cold"

@@ -67,6 +67,7 @@ struct PatchSection {
   std::vector<BarArcTable> arcs;
   std::vector<FiberTable> fibers;
   std::optional<double> GJ, G, J;  // [N m2], [Pa], [m4]
+  bool centred = false;
 
   static constexpr std::array<std::string_view, 6> chosen_by{"patches", "quads", "rings", "layers", "arcs", "fibers"};
   static constexpr std::string_view title = "fibers", note = "Either `GJ`, or `G` and `J`.";
@@ -190,6 +191,8 @@ void visit(Archive& ar, PatchSection& s) {
   ar(Field{"layers", "rows of bars"}, s.layers);
   ar(Field{"arcs", "bars on circles and arcs"}, s.arcs);
   ar(Field{"fibers", "single fibers"}, s.fibers);
+  ar(Field{"centred", "axes through the centroid of all areas, whatever their moduli, as in OpenSees; else as written"},
+     s.centred);
   ar(Field{"GJ", "torsional stiffness", dimension::bending_stiffness, range::non_negative}, s.GJ);
   ar(Field{"G", "shear modulus, with J in place of GJ", dimension::stress, range::non_negative}, s.G);
   ar(Field{"J", "torsion constant", dimension::fourth_power_of_length, range::non_negative}, s.J);
@@ -233,8 +236,16 @@ inline void describe(const PatchSection& section, const ElasticModulus&, Section
     add_bars(all, {b.center[0], b.center[1]}, b.radius, b.angle[0], b.angle[1], b.count, b.size.value(), b.material);
   for (const FiberTable& fiber : section.fibers) all.push_back({fiber.y, fiber.z, fiber.area, fiber.material});
   fibers.torsion_stiffness = section.GJ ? *section.GJ : section.G.value_or(0) * section.J.value_or(0);
-  out.kind = std::move(fibers);
   out.outline = outline(section);
+  if (section.centred && !all.empty()) {
+    const Vector2 centroid = moments(all).centroid;
+    for (FiberDescription& f : all) {
+      f.y -= centroid.x();
+      f.z -= centroid.y();
+    }
+    for (Vector2& point : out.outline) point -= centroid;
+  }
+  out.kind = std::move(fibers);
 }
 
 }  // namespace nsframe
