@@ -34,7 +34,7 @@ ROOF = ((1, 2), (1, 3), (2, 1), (2, 4))  # structure, corner: the four facing co
 
 def tag(frame, floor, place):
     """Corners 1-4 counter-clockwise from (-x, -y), 5 the centre of a slab."""
-    return 1000 * frame + 10 * floor + place
+    return 10000 * frame + 10 * floor + place
 
 
 def column_fibers(h, b, tw, tf, r, **_):
@@ -52,29 +52,29 @@ def column_fibers(h, b, tw, tf, r, **_):
     return fibers
 
 
-def add_frame(number, columns, material):
+def add_frame(number, columns, material, stories):
     frame = FRAMES[number]
     shape = frame["shape"]
     x, y = frame["x0"], SPAN_Y / 2
     plan = ((x - SPAN_X / 2, -y), (x + SPAN_X / 2, -y), (x + SPAN_X / 2, y), (x - SPAN_X / 2, y), (x, 0.0))
     elastic, law, upright, level = number, 10 + number, number, 10 + number
     foot = 20 + number
-    for floor in range(3):
+    for floor in range(stories + 1):
         for place in range(1, 6 if floor else 5):
             ops.node(tag(number, floor, place), *plan[place - 1], STORY * floor)
         if floor:
             for corner in range(1, 5):
                 m = frame["floor_mass"]
                 ops.mass(tag(number, floor, corner), m / 12, m / 12, m / 4, 0.0, 0.0, 0.0)
-            ops.mass(tag(number, floor, 5), 2 * m / 3, 2 * m / 3, 0.0, 0.0, 0.0, frame["spin"][floor - 1])
+            ops.mass(tag(number, floor, 5), 2 * m / 3, 2 * m / 3, 0.0, 0.0, 0.0, frame["spin"][floor == stories])
 
     ops.uniaxialMaterial("Elastic", elastic, STEEL)
     ops.uniaxialMaterial("Elastic", foot, frame["foot"])
     ops.geomTransf("Linear", upright, 0.0, 1.0, 0.0)  # columns: local y is x, local z is y
     ops.geomTransf("Linear", level, 0.0, 0.0, 1.0)    # beams: local z is up
-    element = 10000 * number
+    element = 100000 * number
     for corner in range(1, 5):
-        ground = tag(number, 9, corner)
+        ground = tag(number, 900, corner)
         ops.node(ground, *plan[corner - 1], 0.0)
         ops.fix(ground, 1, 1, 1, 1, 1, 1)
         ops.fix(tag(number, 0, corner), 1, 1, 1, 0, 0, 1)
@@ -95,7 +95,7 @@ def add_frame(number, columns, material):
         for y, z, a in fibers:
             ops.fiber(y, z, a, law)
         ops.beamIntegration("Lobatto", number, number, 5)
-    for floor in (1, 2):
+    for floor in range(1, stories + 1):
         below = [tag(number, floor - 1, k) for k in range(1, 5)]
         here = [tag(number, floor, k) for k in range(1, 5)]
         centre = tag(number, floor, 5)
@@ -116,21 +116,21 @@ def add_frame(number, columns, material):
             ops.element("elasticBeamColumn", element, centre, corner, 0.10, 30e9, 30e9 / 2.4, 1e-5, 1e-6, 1e-3, level)
         for i, j in ((0, 3), (3, 0), (1, 2), (2, 1)):
             element += 1
-            ops.element("Truss", element, below[i], here[j], frame["braces"][floor - 1], elastic)
+            ops.element("Truss", element, below[i], here[j], frame["braces"][floor == stories], elastic)
 
 
-def add_contacts(penalty, with_dashpot=True):
+def add_contacts(penalty, with_dashpot, stories, gaps):
     """Linear spring and dashpot behind a gap; the dashpot returns the restitution (Anagnostopoulos 1988)."""
     ratio = -math.log(RESTITUTION) / math.hypot(math.pi, math.log(RESTITUTION))
     m1, m2 = (FRAMES[k]["floor_mass"] / 2 for k in (1, 2))  # half a floor stands behind a corner
     dashpot = 2 * ratio * math.sqrt(penalty * m1 * m2 / (m1 + m2))
     if not with_dashpot:
         dashpot = 0.0
-    for side, gap in enumerate(GAPS):
+    for side, gap in enumerate(gaps):
         ops.uniaxialMaterial("ViscoelasticGap", 100 + side, penalty, dashpot, -gap)
-        for floor in (1, 2):
+        for floor in range(1, stories + 1):
             left, right = tag(1, floor, 2 + side), tag(2, floor, (1, 4)[side])
-            ops.element("zeroLength", 90000 + 10 * floor + side, left, right, "-mat", 100 + side, "-dir", 1)
+            ops.element("zeroLength", 900000 + 10 * floor + side, left, right, "-mat", 100 + side, "-dir", 1)
 
 
 def damp(command):
@@ -157,10 +157,14 @@ def build(a, record):
     ops.wipe()
     ops.model("basic", "-ndm", 3, "-ndf", 6)
     for number in FRAMES:
-        add_frame(number, a.columns, a.material)
-    frequencies = damp(a.damping)
+        add_frame(number, a.columns, a.material, a.stories)
+    if a.ratio is None:
+        frequencies = damp(a.damping)
+    else:
+        frequencies = [[0, "", math.sqrt(value) / (2 * math.pi)] for value in ops.eigen("-genBandArpack", 6)]
+        {"modalDampingQ": ops.modalDampingQ, "modalDamping": ops.modalDamping}[a.damping](*([a.ratio] * 6))
     if not a.free_flight:
-        add_contacts(a.penalty, not a.no_dashpot)
+        add_contacts(a.penalty, not a.no_dashpot, a.stories, a.gaps)
     ops.timeSeries("Path", 1, "-dt", record["dt"], "-values", *record["acceleration"])
     ops.pattern("UniformExcitation", 1, 1, "-accel", 1)
     ops.constraints("Plain")
@@ -207,6 +211,9 @@ def main():
     parser.add_argument("--material", default="Steel02")
     parser.add_argument("--dt", type=float, default=1e-3)
     parser.add_argument("--duration", type=float, default=20)
+    parser.add_argument("--stories", type=int, default=2, help="taller: every floor and story but the last as the first")
+    parser.add_argument("--ratio", type=float, help="damp the six lowest modes of the model by this, not by the scene's ratios")
+    parser.add_argument("--gaps", type=float, nargs=2, default=GAPS, help="[m] at the corners of lower and higher y")
     parser.add_argument("--penalty", type=float, default=1e8)
     parser.add_argument("--no-dashpot", action="store_true", help="elastic penalty")
     parser.add_argument("--free-flight", action="store_true", help="no contact")
@@ -229,9 +236,9 @@ def main():
             path = os.path.join(folder, "roof.txt")
             if a.history and run == 0:
                 ops.recorder("Node", "-file", path, "-precision", 14, "-time", "-node",
-                             *[tag(frame, 2, corner) for frame, corner in ROOF], "-dof", 1, "disp")
+                             *[tag(frame, a.stories, corner) for frame, corner in ROOF], "-dof", 1, "disp")
             ops.recorder("EnvelopeNode", "-file", os.path.join(folder, "peaks.txt"), "-precision", 10, "-node",
-                         *[tag(frame, 2, corner) for frame, corner in ROOF], "-dof", 1, "disp")
+                         *[tag(frame, a.stories, corner) for frame, corner in ROOF], "-dof", 1, "disp")
             start = time.process_time()
             code, parted = march(a.dt, steps)
             cpu.append((time.process_time() - start) / steps)

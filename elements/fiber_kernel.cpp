@@ -3,62 +3,115 @@
 #define HWY_TARGET_INCLUDE "elements/fiber_kernel.cpp"
 #include <hwy/foreach_target.h>
 // after foreach_target.h, so that every instruction set gets its own laws
-#include "elements/fiber_section.hpp"
+#include <utility>
+
+#include "elements/screening.hpp"
 #include "materials/laws.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace nsframe {
 namespace HWY_NAMESPACE {
 
-// A law's history of Lanes is an array of Lanes, as law.hpp demands (members of type T only).
+// A law's history of Lanes is an array of Lanes, as law.hpp demands (members of type T only). Its members are reached
+// by constant indices, not in a loop: the compiler then keeps them in registers.
 template <class History>
-constexpr int components = static_cast<int>(sizeof(History) / sizeof(Lanes));
+using Components = std::make_index_sequence<sizeof(History) / sizeof(Lanes)>;
+
+template <class History, std::size_t... k>
+HWY_INLINE History load_history(const double* from, std::ptrdiff_t stride, std::index_sequence<k...>) {
+  return {Lanes::load(from + static_cast<std::ptrdiff_t>(k) * stride)...};
+}
+
+template <class History, std::size_t... k>
+HWY_INLINE void store_history(const History& history, double* to, std::ptrdiff_t stride, std::index_sequence<k...>) {
+  (reinterpret_cast<const Lanes*>(&history)[k].store(to + static_cast<std::ptrdiff_t>(k) * stride), ...);
+}
 
 template <class Law>
-HWY_NOINLINE void add_block(const Law& law, const FiberSection& section, const FiberBlock& block, const Vector3& deformation,
-               const double* committed, double* trial, SectionResponse& sum) {
+HWY_NOINLINE void add_block(const Law& block_law, const FiberSection& section, const FiberBlock& block,
+                            const Vector3& deformation, const double* committed, double* trial, SectionResponse& total) {
   using History = typename Law::template History<Lanes>;
+  const Law law = block_law;  // a copy that no store can change: what follows from its parameters is computed once
   const Lanes e0(deformation[0]), kz(deformation[1]), ky(deformation[2]);
   Lanes n, mz, my, ea, eay, eaz, eayy, eazz, eayz;
-  const int width = static_cast<int>(hn::Lanes(LaneTag()));
-  for (int i = 0; i < block.count; i += width) {
-    const auto at = static_cast<std::size_t>(block.first + i);
-    const Lanes y = Lanes::load(&section.y[at]), z = Lanes::load(&section.z[at]), area = Lanes::load(&section.area[at]);
-    History before;
-    auto* const before_components = reinterpret_cast<Lanes*>(&before);
-    const double* const from = committed + block.history_begin + i;
-    for (int k = 0; k < components<History>; ++k) before_components[k] = Lanes::load(from + k * block.count);
+  const std::ptrdiff_t width = static_cast<std::ptrdiff_t>(hn::Lanes(LaneTag())), count = block.count;
+  const double* const ys = section.y.data() + block.first;
+  const double* const zs = section.z.data() + block.first;
+  const double* const areas = section.area.data() + block.first;
+  for (std::ptrdiff_t i = 0; i < count; i += width) {
+    const Lanes y = Lanes::load(ys + i), z = Lanes::load(zs + i), area = Lanes::load(areas + i);
+    const History before = load_history<History>(committed + block.history_begin + i, count, Components<History>());
     const auto response = respond(law, e0 - y * kz + z * ky, before);
-    const auto* const after = reinterpret_cast<const Lanes*>(&response.history);
-    double* const to = trial + block.history_begin + i;
-    for (int k = 0; k < components<History>; ++k) after[k].store(to + k * block.count);
+    store_history(response.history, trial + block.history_begin + i, count, Components<History>());
     const Lanes force = response.stress * area, stiffness = response.tangent * area;
     const Lanes stiffness_y = stiffness * y, stiffness_z = stiffness * z;
     n = n + force;
-    mz = mz + force * y;
-    my = my + force * z;
+    mz = mul_add(force, y, mz);
+    my = mul_add(force, z, my);
     ea = ea + stiffness;
     eay = eay + stiffness_y;
     eaz = eaz + stiffness_z;
-    eayy = eayy + stiffness_y * y;
-    eazz = eazz + stiffness_z * z;
-    eayz = eayz + stiffness_y * z;
+    eayy = mul_add(stiffness_y, y, eayy);
+    eazz = mul_add(stiffness_z, z, eazz);
+    eayz = mul_add(stiffness_y, z, eayz);
   }
-  sum.force += Vector3(n.sum(), -mz.sum(), my.sum());
+  total.force += Vector3(n.sum(), -mz.sum(), my.sum());
+  const double EA = ea.sum(), EAy = eay.sum(), EAz = eaz.sum(), EAyz = eayz.sum();
   Matrix3 tangent;
-  tangent << ea.sum(), -eay.sum(), eaz.sum(), -eay.sum(), eayy.sum(), -eayz.sum(), eaz.sum(), -eayz.sum(), eazz.sum();
-  sum.tangent += tangent;
+  tangent << EA, -EAy, EAz, -EAy, eayy.sum(), -EAyz, EAz, -EAyz, eazz.sum();
+  total.tangent += tangent;
+}
+
+template <class Law>
+concept Screened = requires(const Law& law) { law.quiet_limit(); };
+
+template <class QuietHistory>
+using QuietComponents = std::make_index_sequence<std::is_empty_v<QuietHistory> ? 0 : sizeof(QuietHistory) / sizeof(Lanes)>;
+
+// Brings the block's quiet histories to `deformation`; false when a fiber leaves the line.
+template <class Law>
+HWY_NOINLINE bool keep_block_quiet(const Law& block_law, const FiberSection& section, const FiberBlock& block,
+                                   const Vector3& before, const Vector3& deformation, const double* committed, double* trial) {
+  using QuietHistory = typename Law::template QuietHistory<Lanes>;
+  const Law law = block_law;
+  const Lanes e0(deformation[0]), kz(deformation[1]), ky(deformation[2]);
+  const Lanes before_e0(before[0]), before_kz(before[1]), before_ky(before[2]);
+  const std::ptrdiff_t width = static_cast<std::ptrdiff_t>(hn::Lanes(LaneTag())), count = block.count;
+  for (std::ptrdiff_t i = 0; i < count; i += width) {
+    const Lanes y = Lanes::load(section.y.data() + block.first + i), z = Lanes::load(section.z.data() + block.first + i);
+    auto quiet = load_history<QuietHistory>(committed + block.history_begin + i, count, QuietComponents<QuietHistory>());
+    if (!all(stays_linear(law, block.quiet_limit, before_e0 - y * before_kz + z * before_ky, e0 - y * kz + z * ky, quiet))) return false;
+    store_history(quiet, trial + block.history_begin + i, count, QuietComponents<QuietHistory>());
+  }
+  return true;
+}
+
+bool stay_quiet_target(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial) {
+  const Vector3 before(committed[1], committed[2], committed[3]);
+  trial[0] = 1;
+  for (Eigen::Index k = 0; k < 3; ++k) trial[1 + k] = deformation[k];
+  bool quiet = true;
+  for (const FiberBlock& block : section.blocks) {
+    std::visit(
+        [&](const auto& law) HWY_ATTR {
+          if constexpr (Screened<std::decay_t<decltype(law)>>) {
+            quiet = quiet && keep_block_quiet(law, section, block, before, deformation, committed, trial);
+          }
+        },
+        block.law);
+  }
+  return quiet;
 }
 
 void respond_target(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial,
-                    SectionResponse& sum) {
+                    SectionResponse& total) {
   for (const FiberBlock& block : section.blocks) {
     std::visit(
         [&](const auto& law) HWY_ATTR {
           if constexpr (PlainLaw<std::decay_t<decltype(law)>>)
-            add_block(law, section, block, deformation, committed, trial, sum);
+            add_block(law, section, block, deformation, committed, trial, total);
           else
-            add_wrapped_block(section, block, deformation, committed, trial, sum);
+            add_wrapped_block(section, block, deformation, committed, trial, total);
         },
         block.law);
   }
@@ -72,10 +125,26 @@ HWY_AFTER_NAMESPACE();
 namespace nsframe {
 
 HWY_EXPORT(respond_target);
+HWY_EXPORT(stay_quiet_target);
+
+bool stay_quiet(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial) {
+  return HWY_DYNAMIC_DISPATCH(stay_quiet_target)(section, deformation, committed, trial);
+}
 
 SectionResponse respond(const FiberSection& section, const Vector3& deformation, const double* committed,
                         double* trial) {
   SectionResponse sum;
+  if (is_quiet(committed)) {
+    if (stay_quiet(section, deformation, committed, trial)) {
+      sum.force.noalias() = section.virgin.tangent * deformation;
+      sum.force += section.virgin.force;
+      sum.tangent = section.virgin.tangent;
+      return sum;
+    }
+    open_history(section, committed, trial);
+    committed = trial;  // a fiber's history is read before it is written
+  }
+  trial[0] = 0;
   HWY_DYNAMIC_DISPATCH(respond_target)(section, deformation, committed, trial, sum);
   return sum;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/screening.hpp"
+
 namespace nsframe {
 
 namespace {
@@ -25,9 +27,21 @@ void gather(const double* from, int stride, int components, double* to) {
   for (int k = 0; k < components; ++k) to[k] = from[k * stride];
 }
 
+SectionResponse virgin_response(const FiberSection& section) {
+  SectionResponse sum;
+  double before[max_history], after[max_history];
+  for_each_fiber(section, [&](const FiberBlock& block, std::size_t i, int, int) {
+    initialize_history(block.law, before);
+    const Vector3 lever(1.0, -section.y[i], section.z[i]);
+    sum.force += respond(block.law, 0.0, before, after).stress * section.area[i] * lever;
+    sum.tangent += initial_tangent(block.law) * section.area[i] * lever * lever.transpose();
+  });
+  return sum;
+}
+
 }  // namespace
 
-FiberSection::FiberSection(const std::vector<Fiber>& all, double gj) : torsion_stiffness(gj) {
+FiberSection::FiberSection(const std::vector<Fiber>& all, double gj) : torsion_stiffness(gj), history_size(section_head) {
   std::vector<std::vector<const Fiber*>> by_law;
   for (const Fiber& fiber : all) {
     auto same = std::find_if(by_law.begin(), by_law.end(),
@@ -36,7 +50,8 @@ FiberSection::FiberSection(const std::vector<Fiber>& all, double gj) : torsion_s
     same->push_back(&fiber);
   }
   for (const auto& members : by_law) {
-    FiberBlock block{members.front()->law, static_cast<int>(y.size()), 0, static_cast<int>(members.size()), history_size};
+    FiberBlock block{members.front()->law, static_cast<int>(y.size()), 0, static_cast<int>(members.size()), history_size,
+                     nsframe::quiet_limit(members.front()->law)};
     require(nsframe::history_size(block.law) <= max_history, "a law keeps too many history variables");
     block.count = (block.fibers + fiber_padding - 1) / fiber_padding * fiber_padding;
     for (const Fiber* fiber : members) {
@@ -51,9 +66,13 @@ FiberSection::FiberSection(const std::vector<Fiber>& all, double gj) : torsion_s
     fibers += block.fibers;
     blocks.push_back(block);
   }
+  virgin = virgin_response(*this);
+  screened = can_be_quiet(*this);
 }
 
 void initialize_history(const FiberSection& section, double* history) {
+  if (section.screened) return start_quiet(section, history);
+  std::fill_n(history, section_head, 0.0);
   double virgin[max_history];
   for (const FiberBlock& block : section.blocks) {
     initialize_history(block.law, virgin);
@@ -88,6 +107,11 @@ void add_wrapped_block(const FiberSection& section, const FiberBlock& block, con
 
 SectionResponse respond_scalar(const FiberSection& section, const Vector3& deformation, const double* committed,
                                double* trial) {
+  if (is_quiet(committed)) {
+    open_history(section, committed, trial);
+    committed = trial;  // a fiber's history is read before it is written
+  }
+  trial[0] = 0;
   SectionResponse sum;
   double before[max_history], after[max_history];
   for_each_fiber(section, [&](const FiberBlock& block, std::size_t i, int begin, int stride) {
@@ -102,14 +126,7 @@ SectionResponse respond_scalar(const FiberSection& section, const Vector3& defor
   return sum;
 }
 
-Matrix3 initial_tangent(const FiberSection& section) {
-  Matrix3 sum = Matrix3::Zero();
-  for_each_fiber(section, [&](const FiberBlock& block, std::size_t i, int, int) {
-    const Vector3 lever(1.0, -section.y[i], section.z[i]);
-    sum += initial_tangent(block.law) * section.area[i] * lever * lever.transpose();
-  });
-  return sum;
-}
+Matrix3 initial_tangent(const FiberSection& section) { return section.virgin.tangent; }
 
 double peak_strain_ratio(const FiberSection& section, const Vector3& deformation) {
   double peak = 0;
@@ -128,6 +145,11 @@ std::vector<FiberPlace> fiber_places(const FiberSection& section) {
 }
 
 std::vector<FiberState> fiber_states(const FiberSection& section, const Vector3& deformation, const double* committed) {
+  if (is_quiet(committed)) {
+    std::vector<double> opened(static_cast<std::size_t>(section.history_size));
+    open_history(section, committed, opened.data());
+    return fiber_states(section, deformation, opened.data());
+  }
   std::vector<FiberState> states;
   states.reserve(static_cast<std::size_t>(section.fibers));
   double before[max_history], after[max_history];

@@ -29,6 +29,7 @@ struct FiberBlock {
   int first = 0, count = 0;    // padded to a multiple of fiber_padding by fibers without area
   int fibers = 0;              // without the padding
   int history_begin = 0;       // component k of fiber i stands at history_begin + k * count + i
+  double quiet_limit = 0;      // of the law, 0 when it can't be screened
 };
 
 inline constexpr int fiber_padding = 8;  // doubles in the widest SIMD register in use
@@ -40,12 +41,15 @@ struct FiberSection {
   double torsion_stiffness = 0;  // GJ [N m2]
   int history_size = 0;          // doubles
   int fibers = 0;
+  bool screened = false;         // starts quiet (screening.hpp)
+  SectionResponse virgin;        // at no deformation
 
   FiberSection() = default;
   // Fibers with equal laws are gathered into blocks, in the order of their first appearance.
   FiberSection(const std::vector<Fiber>& fibers, double torsion_stiffness);
 };
 
+// Virgin; quiet (screening.hpp) when the section is screened.
 void initialize_history(const FiberSection& section, double* history);
 
 // Section forces and tangent at `deformation` = (e0, kz, ky) from the committed fiber histories (history_size
@@ -57,7 +61,7 @@ SectionResponse respond(const FiberSection& section, const Vector3& deformation,
 void add_wrapped_block(const FiberSection& section, const FiberBlock& block, const Vector3& deformation,
                        const double* committed, double* trial, SectionResponse& sum);
 
-// The same fiber by fiber in plain doubles: the definition that the kernel is tested against.
+// The same fiber by fiber in plain doubles, no section quiet: the definition that the kernel is tested against.
 SectionResponse respond_scalar(const FiberSection& section, const Vector3& deformation, const double* committed,
                                double* trial);
 

@@ -30,6 +30,10 @@ struct Elastic {
   };
   History<double> virgin() const { return {0}; }
   bool is_linear() const { return Eneg.value_or(E) == E; }
+  template <class T>
+  struct QuietHistory {};
+  double quiet_limit() const { return is_linear() ? 1 : 0; }
+  History<double> opened(double strain, const QuietHistory<double>&) const { return {strain}; }
   double initial_tangent() const { return std::max(E, Eneg.value_or(E)); }
   double yield_strain() const { return std::numeric_limits<double>::infinity(); }
 };
@@ -48,6 +52,11 @@ HWY_INLINE Response<T, Elastic> respond(const Elastic& law, T strain, const Elas
   const T zero(0.0);
   const T tangent = select(strain > zero, T(law.E), select(strain < zero, T(compression), T(at_zero)));
   return {tangent * strain, tangent, {strain}};
+}
+
+template <class T>
+HWY_INLINE auto stays_linear(const Elastic&, double, T, T strain, Elastic::QuietHistory<T>&) {
+  return strain == strain;  // all, unless it is not a number
 }
 
 }  // namespace HWY_NAMESPACE

@@ -27,6 +27,10 @@ struct ElasticPP {
   };
   double compression_yield() const { return epsyN < 0 ? epsyN : -epsyP; }
   History<double> virgin() const { return {0, 0}; }
+  template <class T>
+  struct QuietHistory {};
+  double quiet_limit() const { return 1; }
+  History<double> opened(double strain, const QuietHistory<double>&) const { return {strain, 0}; }
   double initial_tangent() const { return E; }
   double yield_strain() const { return std::min(epsyP, -compression_yield()); }
   bool has_yielded(double strain, double stress) const {
@@ -56,6 +60,12 @@ HWY_INLINE Response<T, ElasticPP> respond(const ElasticPP& law, T strain, const 
   const T stress = max(T(law.E * law.compression_yield()), min(T(law.E * law.epsyP), trial));
   const T plastic_strain = committed.plastic_strain + (trial - stress) / T(law.E);
   return {stress, select(stress == trial, T(law.E), T(0.0)), {strain, plastic_strain}};
+}
+
+template <class T>
+HWY_INLINE auto stays_linear(const ElasticPP& law, double, T, T strain, ElasticPP::QuietHistory<T>&) {
+  const T elastic = strain - T(law.eps0);
+  return both(elastic < T(law.epsyP), elastic > T(law.compression_yield()));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -26,6 +26,10 @@ struct Steel01 {
     T stress;  // [Pa]
   };
   History<double> virgin() const { return {0, 0}; }
+  template <class T>
+  struct QuietHistory {};
+  double quiet_limit() const { return 1; }
+  History<double> opened(double strain, const QuietHistory<double>&) const { return {strain, E * strain}; }
   double initial_tangent() const { return E; }
   double yield_strain() const { return fy / E; }
   template <class Visit, class Law>
@@ -51,6 +55,11 @@ HWY_INLINE Response<T, Steel01> respond(const Steel01& law, T strain, const Stee
   const T half_width = T(law.fy * (1 - law.b));
   const T stress = max(middle - half_width, min(middle + half_width, trial));
   return {stress, select(stress == trial, T(law.E), T(law.b * law.E)), {strain, stress}};
+}
+
+template <class T>
+HWY_INLINE auto stays_linear(const Steel01& law, double, T, T strain, Steel01::QuietHistory<T>&) {
+  return abs(strain) < T(law.fy / law.E);
 }
 
 }  // namespace HWY_NAMESPACE

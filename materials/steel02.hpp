@@ -31,20 +31,30 @@ struct Steel02 {
   double a4 = 1;         // [-]
   double sigInit = 0;    // initial stress [Pa]
 
+  // Direction, target and s_0 of the branch follow from these: e_0 - e_r has the branch's sign (0 before any strain), it
+  // runs towards the extreme strain of that side, and s_0 lies on the elastic line through (e_r, s_r).
   template <class T>
   struct History {
     T strain;           // [-], including sigInit / E
     T stress;           // [Pa]
     T least_strain;     // smallest strain at a reversal, at most -fy/E
     T largest_strain;   // largest strain at a reversal, at least fy/E
-    T target_strain;    // extreme strain towards which the branch runs
     T asymptote_strain; // e_0
-    T asymptote_stress; // s_0
     T reversal_strain;  // e_r
     T reversal_stress;  // s_r
-    T direction;        // 0 before any strain, then +1 or -1
   };
-  History<double> virgin() const { return {sigInit / E, sigInit, -fy / E, fy / E, 0, 0, 0, 0, 0, 0}; }
+  History<double> virgin() const { return {sigInit / E, sigInit, -fy / E, fy / E, 0, 0, 0}; }
+  // Without isotropic hardening, a virgin fiber reverses on the elastic line, which meets the asymptotes at +-fy/E
+  // whatever it has done: R remains R0, and the curve is lost in rounding while |e*|^R / R < 2^-54 / R.
+  template <class T>
+  struct QuietHistory {
+    T asymptote_strain, reversal_strain;
+  };
+  double quiet_limit() const { return a1 == 0 && a3 == 0 ? std::exp2(-54 / R0) : 0; }
+  History<double> opened(double strain_from_zero, const QuietHistory<double>& quiet) const {
+    const double strain = strain_from_zero + sigInit / E;
+    return {strain, E * strain, -fy / E, fy / E, quiet.asymptote_strain, quiet.reversal_strain, E * quiet.reversal_strain};
+  }
   double initial_tangent() const { return E; }
   double yield_strain() const { return fy / E; }
   bool has_yielded(double strain, double stress) const {
@@ -81,60 +91,73 @@ HWY_INLINE Response<T, Steel02> respond(const Steel02& law, T strain_from_zero, 
   const T zero(0.0), one(1.0);
   const T strain = strain_from_zero + T(law.sigInit / E);
   const T increment = strain - committed.strain;
+  const T committed_range = committed.asymptote_strain - committed.reversal_strain;
+  const auto first = committed_range == zero;
   // 10 machine epsilons: a virgin fiber that has hardly moved has no direction yet, but already its elastic stress:
   // a stress that stays behind would be a jump, on which sections in equilibrium with small forces do not converge
-  const auto unmoved = both(committed.direction == zero, abs(increment) < T(2.220446049250313e-15));
+  const auto unmoved = both(first, abs(increment) < T(2.220446049250313e-15));
   const auto rising = increment > zero;
   const T sign = select(rising, one, T(-1.0));
 
-  Steel02::History<T> h = committed;
-  const auto first = committed.direction == zero;
-  h.direction = select(first, sign, h.direction);
-  h.asymptote_strain = select(first, sign * T(yield_strain), h.asymptote_strain);
-  h.asymptote_stress = select(first, sign * T(law.fy), h.asymptote_stress);
-  h.target_strain = select(first, sign * T(yield_strain), h.target_strain);
-
-  const auto reversed = h.direction * increment < zero;
-  h.least_strain = select(both(reversed, rising), min(h.least_strain, committed.strain), h.least_strain);
-  h.largest_strain = select(both(reversed, increment < zero), max(h.largest_strain, committed.strain), h.largest_strain);
+  const auto reversed = committed_range * increment < zero;
+  const T least_strain = select(both(reversed, rising), min(committed.least_strain, committed.strain), committed.least_strain);
+  const T largest_strain =
+      select(both(reversed, increment < zero), max(committed.largest_strain, committed.strain), committed.largest_strain);
   T shift = one;
   if (law.a1 != 0 || law.a3 != 0) {
-    const T excursion = h.largest_strain - h.least_strain;
+    const T excursion = largest_strain - least_strain;
     shift = one + select(rising, T(law.a3), T(law.a1)) *
                       pow(excursion * select(rising, T(0.5 / (law.a4 * yield_strain)), T(0.5 / (law.a2 * yield_strain))), T(0.8));
   }
-  const T yield_stress = sign * shift * T(law.fy), shifted_strain = sign * shift * T(yield_strain);
-  const T meeting_strain =
-      (yield_stress - T(hardening) * shifted_strain - committed.stress + T(E) * committed.strain) * T(1 / (E - hardening));
-  const T meeting_stress = yield_stress + T(hardening) * (meeting_strain - shifted_strain);
-  h.reversal_strain = select(reversed, committed.strain, h.reversal_strain);
-  h.reversal_stress = select(reversed, committed.stress, h.reversal_stress);
-  h.asymptote_strain = select(reversed, meeting_strain, h.asymptote_strain);
-  h.asymptote_stress = select(reversed, meeting_stress, h.asymptote_stress);
-  h.target_strain = select(reversed, select(rising, h.largest_strain, h.least_strain), h.target_strain);
-  h.direction = select(reversed, sign, h.direction);
+  // from the reversal to the shifted asymptote along the elastic line, in the branch's direction: at least what rounding
+  // leaves of it when a strain far out on the asymptote reverses twice
+  const T outward = shift * T(law.fy * (1 - law.b)) - sign * (committed.stress - T(hardening) * committed.strain);
+  const T new_range = sign * max(outward * T(1 / (E - hardening)), T(1e-12 * yield_strain));
+  const T reversal_strain = select(reversed, committed.strain, committed.reversal_strain);
+  const T reversal_stress = select(reversed, committed.stress, committed.reversal_stress);
+  const T asymptote_strain =
+      select(reversed, committed.strain + new_range, select(first, sign * T(yield_strain), committed.asymptote_strain));
 
   // R = R0 above / below with below = cR2 + x, above = cR2 + (1 - cR1) x; one division serves R, 1/R and e*
-  const T excursion = abs(h.target_strain - h.asymptote_strain) * T(1 / yield_strain);
-  const T below = T(law.cR2) + excursion, above = T(law.cR2) + T(1 - law.cR1) * excursion;
-  const T strain_range = h.asymptote_strain - h.reversal_strain, stress_range = h.asymptote_stress - h.reversal_stress;
-  const T inverse = one / (above * below * strain_range);
-  const T R = T(law.R0) * above * above * (inverse * strain_range);
-  const T inverse_R = T(1 / law.R0) * below * below * (inverse * strain_range);
-  const T inverse_range = inverse * above * below;
-  const T ratio = (strain - h.reversal_strain) * inverse_range;
+  const T range = asymptote_strain - reversal_strain;
+  const T target_strain = select(range > zero, largest_strain, least_strain);
+  const T excursion = abs(target_strain - asymptote_strain) * T(1 / yield_strain);
+  const T below = T(law.cR2) + excursion, above = mul_add(T(1 - law.cR1), excursion, T(law.cR2));
+  const T inverse = one / (above * below * range);
+  const T R = T(law.R0) * above * above * (inverse * range);
+  const T inverse_R = T(1 / law.R0) * below * below * (inverse * range);
+  const T from_reversal = strain - reversal_strain;
+  const T ratio = abs(from_reversal * inverse * above * below);
   T curve = one, bend = T(1 - law.b);  // bend = (1 - b) / curve^(1 + 1/R)
-  if (!all(R * log2_bound(abs(ratio)) < T(-54.0))) {  // else |e*|^R is lost against 1 by rounding: a straight line
-    curve = one + pow(abs(ratio), R);
-    bend = bend * pow(curve, -(one + inverse_R));
+  if (!all(R * log2_bound(ratio) < T(-54.0))) {  // else |e*|^R is lost against 1 by rounding: a straight line
+    const T power = pow(ratio, R);
+    curve = one + power;
+    bend = bend * one_plus_pow(power, one + inverse_R);
   }
-  const T stress = h.reversal_stress + stress_range * ratio * (T(law.b) + bend * curve);
-  const T tangent = (T(law.b) + bend) * (stress_range * inverse_range);
+  const T secant = T(E) * mul_add(bend, curve, T(law.b));
+  const T stress = mul_add(from_reversal, secant, reversal_stress);
+  const T tangent = T(E) * (T(law.b) + bend);
 
-  h.strain = strain;
-  h.stress = select(unmoved, committed.stress + T(E) * increment, stress);
-  h.direction = select(unmoved, zero, h.direction);
-  return {h.stress, select(unmoved, T(E), tangent), h};
+  const T final_stress = select(unmoved, committed.stress + T(E) * increment, stress);
+  return {final_stress,
+          select(unmoved, T(E), tangent),
+          {strain, final_stress, least_strain, largest_strain, select(unmoved, zero, asymptote_strain), reversal_strain, reversal_stress}};
+}
+
+template <class T>
+HWY_INLINE auto stays_linear(const Steel02& law, double limit, T before_from_zero, T strain_from_zero,
+                             Steel02::QuietHistory<T>& quiet) {
+  const T zero(0.0), before = before_from_zero + T(law.sigInit / law.E), strain = strain_from_zero + T(law.sigInit / law.E);
+  const T increment = strain - before, range = quiet.asymptote_strain - quiet.reversal_strain;
+  // as in respond(), branch by branch
+  const auto first = range == zero;
+  const auto unmoved = both(first, abs(increment) < T(2.220446049250313e-15));
+  const auto reversed = range * increment < zero;
+  const T yield_strain(law.fy / law.E), target = select(increment > zero, yield_strain, -yield_strain);
+  quiet.reversal_strain = select(reversed, before, quiet.reversal_strain);
+  quiet.asymptote_strain = select(unmoved, zero, select(either(first, reversed), target, quiet.asymptote_strain));
+  const T room = T(limit) * abs(quiet.asymptote_strain - quiet.reversal_strain);
+  return either(unmoved, abs(strain - quiet.reversal_strain) < room);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -30,6 +30,7 @@ Vector12 gather(const ElementGroup& group, int element, const VectorX& full) {
 }  // namespace
 
 Assembler::Assembler(const Model& model, int threads) : model_(model), threads_(std::max(1, threads)) {
+  Eigen::setNbThreads(1);  // its threads would wait in loops between our products, which are too short for them
   for (const Structure& structure : model.structures) blocks_.push_back({structure.first_dof, structure.last_dof});
   std::vector<Eigen::Triplet<double>> pattern;
   for (std::size_t g = 0; g < model.groups.size(); ++g) {

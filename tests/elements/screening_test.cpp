@@ -1,0 +1,137 @@
+// Screened sections against sections evaluated fiber by fiber, over random histories with reversals.
+#include "elements/screening.hpp"
+
+#include <doctest/doctest.h>
+
+#include <hwy/targets.h>
+
+#include <random>
+
+using namespace nsframe;
+
+namespace {
+
+constexpr double yield = 235e6 / 210e9;  // [-]
+
+FiberSection section_of(const std::vector<UniaxialLaw>& laws) {
+  std::vector<Fiber> fibers;
+  for (int i = 0; i < 45; ++i) {
+    fibers.push_back({0.01 * (i % 9 - 4), 0.012 * (i % 5 - 2), 1e-4 * (1 + i % 3), laws[static_cast<std::size_t>(i) % laws.size()]});
+  }
+  return FiberSection(fibers, 1e4);
+}
+
+struct NamedSection {
+  const char* name;
+  FiberSection section;
+};
+
+const std::vector<NamedSection>& sections() {
+  static const std::vector<NamedSection> all{
+      {"Elastic", section_of({Elastic{210e9}})},
+      {"ElasticPP", section_of({ElasticPP{210e9, yield, -0.8 * yield, 0.05 * yield}})},
+      {"Steel01", section_of({Steel01{235e6, 210e9, 0.01}})},
+      {"Steel02", section_of({Steel02{235e6, 210e9, 0.01}})},
+      {"Steel02, initial stress", section_of({Steel02{235e6, 210e9, 0.01, 20, 0.925, 0.15, 0, 1, 0, 1, 10e6}})},
+      {"mixed", section_of({Elastic{30e9}, Steel01{235e6, 210e9, 0.01}, Steel02{355e6, 205e9, 0.02, 18.5}})},
+  };
+  return all;
+}
+
+struct Comparison {
+  double difference = 0;      // of force and tangent, relative to those at yield and to the virgin section
+  int quiet = 0, opened = 0;  // steps that ended quiet, and not
+};
+
+// Extreme fibers go to about `amplitude` yield strains to either side; after `steps`, ten times as far.
+Comparison compare(const FiberSection& section, double amplitude, int steps, unsigned seed) {
+  VectorX screened(section.history_size), full(section.history_size), next(section.history_size);
+  initialize_history(section, screened.data());
+  open_history(section, screened.data(), full.data());
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  const Vector3 scale(yield / 3, yield / 3 / 0.04, yield / 3 / 0.024);
+  Comparison result;
+  Vector3 deformation = Vector3::Zero();
+  for (int step = 0; step < 2 * steps; ++step) {
+    const double reach = step < steps ? amplitude : 10 * amplitude;
+    const Vector3 target = reach * Vector3(uniform(random), uniform(random), uniform(random)).cwiseProduct(scale);
+    // now and then a repeated deformation, or one changed by rounding errors only
+    if (step % 17 == 0) {
+      deformation *= 1 + 1e-16;
+    } else if (step % 13 != 0) {
+      deformation += 0.4 * (target - deformation);
+    }
+    const SectionResponse a = respond(section, deformation, screened.data(), next.data());
+    screened.swap(next);
+    const SectionResponse b = respond_scalar(section, deformation, full.data(), next.data());
+    full.swap(next);
+    const Matrix3& virgin = section.virgin.tangent;
+    for (int i = 0; i < 3; ++i) {
+      result.difference = std::max(result.difference, std::abs(a.force[i] - b.force[i]) / (virgin(i, i) * 3 * scale[i]));
+      for (int j = 0; j < 3; ++j) {
+        result.difference = std::max(result.difference, std::abs(a.tangent(i, j) - b.tangent(i, j)) / std::sqrt(virgin(i, i) * virgin(j, j)));
+      }
+    }
+    ++(is_quiet(screened.data()) ? result.quiet : result.opened);
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a screened section answers like its fibers, before and after it leaves the elastic range") {
+  const auto supported = hwy::SupportedTargets();
+  for (auto target = supported; target != 0; target &= target - 1) {
+    hwy::SetSupportedTargetsForTest(target & (~target + 1));
+    for (const NamedSection& named : sections()) {
+      CAPTURE(named.name);
+      CHECK(named.section.screened);
+      for (const double amplitude : {0.05, 0.3, 3.0}) {
+        for (unsigned seed = 1; seed < 6; ++seed) {
+          CAPTURE(amplitude);
+          // rounding of some hundred sums of stress, and of powers x^R, about R |log x| epsilons
+          CHECK(compare(named.section, amplitude, 150, seed).difference < 2e-12);
+        }
+      }
+    }
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+TEST_CASE("a section is quiet while its strains are small, and no longer once a fiber left the line") {
+  for (const NamedSection& named : sections()) {
+    CAPTURE(named.name);
+    const Comparison small = compare(named.section, 0.03, 150, 3);
+    CHECK(small.quiet >= 150);
+    const Comparison large = compare(named.section, 3.0, 150, 3);
+    if (std::string(named.name) == "Elastic") {
+      CHECK(large.opened == 0);
+    } else {
+      CHECK(large.opened > 250);
+    }
+  }
+}
+
+TEST_CASE("a section with a law that has no elastic range to rounding is never quiet") {
+  // isotropic hardening moves the asymptotes at the first reversal
+  const FiberSection isotropic = section_of({Elastic{30e9}, Steel02{235e6, 210e9, 0.01, 18.5, 0.925, 0.15, 0.04, 1, 0.02, 1, 0}});
+  CHECK_FALSE(isotropic.screened);
+  VectorX history(isotropic.history_size);
+  initialize_history(isotropic, history.data());
+  CHECK_FALSE(is_quiet(history.data()));
+}
+
+TEST_CASE("trial responses of a quiet section leave its committed history as it was") {
+  const FiberSection& section = sections()[3].section;
+  VectorX committed(section.history_size), trial(section.history_size);
+  initialize_history(section, committed.data());
+  respond(section, Vector3(2e-5, 1e-3, -1e-3), committed.data(), trial.data());
+  committed.swap(trial);
+  const VectorX before = committed;
+  respond(section, Vector3(1e-5, -1e-3, 1e-3), committed.data(), trial.data());
+  CHECK(is_quiet(trial.data()));
+  respond(section, Vector3(1e-3, 0.1, 0.1), committed.data(), trial.data());
+  CHECK_FALSE(is_quiet(trial.data()));
+  CHECK(committed == before);
+}
