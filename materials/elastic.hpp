@@ -48,7 +48,8 @@ namespace HWY_NAMESPACE {
 // At zero strain the tangent is the larger modulus.
 template <class T>
 HWY_INLINE Response<T, Elastic> respond(const Elastic& law, T strain, const Elastic::History<T>&) {
-  const double compression = law.Eneg.value_or(law.E), at_zero = law.initial_tangent();
+  if (law.is_linear()) return {T(law.E) * strain, T(law.E), {strain}};
+  const double compression = *law.Eneg, at_zero = law.initial_tangent();
   const T zero(0.0);
   const T tangent = select(strain > zero, T(law.E), select(strain < zero, T(compression), T(at_zero)));
   return {tangent * strain, tangent, {strain}};

@@ -61,7 +61,7 @@ TEST_CASE("results.h5 has the curve and the histories of every static stage, alo
     Diagnostics diagnostics;
     const Model model = build_model(pushed_frame(), diagnostics);
     Simulation simulation(model, analysis(duration));
-    const ResultsFolder folder;
+    const TemporaryFolder folder;
     OutputOptions output;
     output.history = {"nodes", "elements"};
     output.nodes = {"left.21"};
@@ -139,7 +139,7 @@ TEST_CASE("every point of a stage is a frame of its own collection") {
   Diagnostics diagnostics;
   const Model model = build_model(pushed_frame(), diagnostics);
   Simulation simulation(model, analysis(0));
-  const ResultsFolder folder;
+  const TemporaryFolder folder;
   StageFrames frames(folder.path(), {});
   simulation.run({}, {}, {&frames});
   for (const auto& [stage, count] : {std::pair{"push", 9}, {"release", 4}}) {
@@ -154,7 +154,7 @@ TEST_CASE("every point of a stage is a frame of its own collection") {
 TEST_CASE("a run that goes on from a checkpoint after static stages leaves the same results.h5") {
   Diagnostics diagnostics;
   const Model model = build_model(pushed_frame(), diagnostics);
-  const ResultsFolder folder;
+  const TemporaryFolder folder;
   OutputOptions output;
   output.history = {"nodes", "elements", "energy"};
   {

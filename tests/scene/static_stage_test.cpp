@@ -53,7 +53,7 @@ TEST_CASE("cycles go to and fro, each as often as it says") {
 }
 
 TEST_CASE("a file of targets is read relative to the scene, times its factor, and written for another directory") {
-  const test::TemporaryDirectory directory;
+  const test::TemporaryFolder directory;
   directory.write("protocol.txt", "# a protocol\n0.5\n\n -1  # back\n+2e0\n");
   const std::string text = stage + "masses = \"x\"\ncontrol = \"displacement\"\nat = [\"a.9\", \"ux\"]\nfile = \"protocol.txt\"\nfactor = \"1 mm\"";
   Diagnostics diagnostics;
@@ -61,7 +61,7 @@ TEST_CASE("a file of targets is read relative to the scene, times its factor, an
   diagnostics.throw_if_any();
   const std::vector<double> expected{0.5e-3, -1e-3, 2e-3};
   CHECK(read.model.stages[0].options.targets == expected);
-  const test::TemporaryDirectory other;
+  const test::TemporaryFolder other;
   const Scene second = parse_scene(write_scene(read, other.path()), "t.toml", other.path(), {}, diagnostics);
   diagnostics.throw_if_any();
   CHECK(second.model.stages[0].options.targets == expected);
