@@ -37,7 +37,8 @@ ModelDescription clamped(int elements, const ElasticSection& section, const Curv
 
 // Displacements (6) of the last node under `load` (6) there, in equal steps; `each` sees them after every step.
 template <class Each>
-Vector6 pushed(const ModelDescription& description, const Vector6& load, int steps, const Each& each) {
+Vector6 pushed(const ModelDescription& description, const Vector6& load, int steps, const Each& each,
+               const StaticOptions& options = {}) {
   const Model model = build(description);
   System system(model, 1);
   State state = virgin_state(system);
@@ -46,7 +47,7 @@ Vector6 pushed(const ModelDescription& description, const Vector6& load, int ste
   const VectorX reduced = model.dofs.transformation_transposed * full;
   Vector6 tip = Vector6::Zero();
   for (int step = 1; step <= steps; ++step) {
-    solve_static(system, double(step) / steps * reduced, StaticOptions{}, state);
+    solve_static(system, double(step) / steps * reduced, options, state);
     tip = model.dofs.expand(state.displacement).tail<6>();
     each(step, tip);
   }
@@ -102,7 +103,11 @@ TEST_CASE("a cantilever under a transverse tip load tends to the elastica at sec
   for (const auto& [load, w, u] : {std::tuple{1.0, 0.30172, -0.05643}, {2.0, 0.49346, -0.16064}}) {
     CAPTURE(load);
     std::vector<Vector6> tips;
-    for (const int elements : {8, 16, 32}) tips.push_back(pushed(clamped(elements, slender(1e6), straight), load * Vector6::Unit(1), 4));
+    for (const int elements : {8, 16, 32}) {
+      // rounding of the elongations alone leaves 1e-10 of the load
+      tips.push_back(pushed(clamped(elements, slender(1e6), straight), load * Vector6::Unit(1), 4, [](int, const Vector6&) {},
+                            StaticOptions{1e-8, 50, 10}));
+    }
     const Vector6 limit = tips[2] + (tips[2] - tips[1]) / 3;
     CHECK(limit[1] == doctest::Approx(w).epsilon(5e-6 / w));  // five digits printed
     CHECK(limit[0] == doctest::Approx(u).epsilon(5e-6 / -u));
@@ -142,8 +147,9 @@ TEST_CASE("a cantilever with axial and lateral load has AISC Design Guide 25's s
       load[1] = H;
       const double tip = pushed(d, load, 1)[1];
       // the critical load of 16 elements is 8e-4 high; near it the amplification grows
-      CHECK(tip == doctest::Approx(sway).epsilon(1.5e-3 * ratio / (0.25 - ratio)));
-      CHECK(H * L + ratio * euler * tip == doctest::Approx(base_moment).epsilon(1.5e-3 * ratio / (0.25 - ratio)));
+      const double tolerance = 1e-3 * ratio / (0.25 - ratio) + 1e-5;
+      CHECK(std::abs(tip / sway - 1) < tolerance);
+      CHECK(std::abs((H * L + ratio * euler * tip) / base_moment - 1) < tolerance);
     }
   }
 }
