@@ -228,7 +228,7 @@ HWY_INLINE Response<T, IMKBilin> respond(const IMKBilin& law, T strain_given, co
       both(both(except(moves, except(was_on, leaves)), stress0 * stress <= zero), committed.stage > zero);
   const Side weakened = deteriorate(ahead, pick(pos.Fy, neg.Fy), pick(pos.Kpc(), neg.Kpc()), residual, law.Ke,
                                     loss.strength, loss.cap, strain0, stress0, K);
-  ahead = choose(crosses, weakened, ahead);
+  ahead = choose(except(crosses, ahead.failed > zero), weakened, ahead);  // else a side without strength fades to 1e-308
   const auto collapses =
       either(dead, either(both(leaves, loss.collapse_leaving > one), both(crosses, loss.collapse_crossing > one)));
 

@@ -111,8 +111,8 @@ inline Lanes exp2(Lanes x) {
   return hn::BitCast(tag, hn::Add(hn::BitCast(integers, power.lanes), hn::ShiftLeft<52>(hn::BitCast(integers, rounded))));
 }
 
-// Carries the rounding of p log2(x), about |p log(x)| epsilons. 0 counts as 2^-1023.
-inline Lanes pow(Lanes x, Lanes p) { return exp2(p * log2(x)); }
+// Carries the rounding of p log2(x), about |p log(x)| epsilons. 0 and -0 count as 2^-1023.
+inline Lanes pow(Lanes x, Lanes p) { return exp2(p * log2(abs(x))); }
 
 inline Lanes log2_bound(Lanes x) {
   const hn::RebindToUnsigned<LaneTag> bits;

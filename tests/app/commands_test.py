@@ -152,8 +152,8 @@ class Commands(unittest.TestCase):
     def test_fibers_of_an_element_without_are_bad_input_at_their_place(self):
         text = STUBBORN.replace('history = ["nodes", "energy"]', 'history = ["fibers"]\nfibers = ["s.k", "s.j"]')
         done = self.nsframe("run", self.scene(text), "-o", "out", code=2)
-        self.assertIn("s.toml:21:10: error: element 's.k' has no fibers", done.stderr)
-        self.assertIn("s.toml:21:10: error: there is no element 's.j'; did you mean 's.k'?", done.stderr)
+        self.assertIn("s.toml:22:10: error: element 's.k' has no fibers", done.stderr)
+        self.assertIn("s.toml:22:10: error: there is no element 's.j'; did you mean 's.k'?", done.stderr)
         self.assertFalse((self.folder / "out").exists())
 
     def test_a_scene_that_is_not_there_is_bad_input(self):

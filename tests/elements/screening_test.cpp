@@ -56,10 +56,12 @@ Comparison compare(const FiberSection& section, double amplitude, int steps, uns
   for (int step = 0; step < 2 * steps; ++step) {
     const double reach = step < steps ? amplitude : 10 * amplitude;
     const Vector3 target = reach * Vector3(uniform(random), uniform(random), uniform(random)).cwiseProduct(scale);
-    // now and then a repeated deformation, or one changed by rounding errors only
+    // now and then a repeated deformation, or one changed by rounding errors only: a fiber that yields then stands on a
+    // corner, and rounding chooses its tangent
+    const bool repeated = step % 17 == 0 || step % 13 == 0;
     if (step % 17 == 0) {
       deformation *= 1 + 1e-16;
-    } else if (step % 13 != 0) {
+    } else if (!repeated) {
       deformation += 0.4 * (target - deformation);
     }
     const SectionResponse a = respond(section, deformation, screened.data(), next.data());
@@ -69,7 +71,7 @@ Comparison compare(const FiberSection& section, double amplitude, int steps, uns
     const Matrix3& virgin = section.virgin.tangent;
     for (int i = 0; i < 3; ++i) {
       result.difference = std::max(result.difference, std::abs(a.force[i] - b.force[i]) / (virgin(i, i) * 3 * scale[i]));
-      for (int j = 0; j < 3; ++j) {
+      for (int j = 0; j < 3 && !repeated; ++j) {
         result.difference = std::max(result.difference, std::abs(a.tangent(i, j) - b.tangent(i, j)) / std::sqrt(virgin(i, i) * virgin(j, j)));
       }
     }
@@ -84,8 +86,9 @@ TEST_CASE("a screened section answers like its fibers, before and after it leave
   const auto supported = hwy::SupportedTargets();
   for (auto target = supported; target != 0; target &= target - 1) {
     hwy::SetSupportedTargetsForTest(target & (~target + 1));
+    CAPTURE(std::string(hwy::TargetName(target & (~target + 1))));
     for (const NamedSection& named : sections()) {
-      CAPTURE(named.name);
+      CAPTURE(std::string(named.name));
       CHECK(named.section.screened);
       for (const double amplitude : {0.05, 0.3, 3.0}) {
         for (unsigned seed = 1; seed < 6; ++seed) {
@@ -101,7 +104,7 @@ TEST_CASE("a screened section answers like its fibers, before and after it leave
 
 TEST_CASE("a section is quiet while its strains are small, and no longer once a fiber left the line") {
   for (const NamedSection& named : sections()) {
-    CAPTURE(named.name);
+    CAPTURE(std::string(named.name));
     const Comparison small = compare(named.section, 0.03, 150, 3);
     CHECK(small.quiet >= 150);
     const Comparison large = compare(named.section, 3.0, 150, 3);

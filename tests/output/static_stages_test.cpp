@@ -34,6 +34,7 @@ ModelDescription pushed_frame() {
   StageDescription release;
   release.name = "release";
   release.masses = Vector3::UnitX();
+  release.options.targets = {1};
   release.options.steps = 3;
   d.stages = {push, release};
   return d;

@@ -123,5 +123,5 @@ TEST_CASE("the stiffness of rayleigh damping is read, written, and refused elsew
   CHECK(first.model.structures[0].damping.stiffness == DampingStiffness::committed);
   CHECK(second.model.structures[0].damping.stiffness == DampingStiffness::committed);
   CHECK(error("[structure.a]\nnodes = []\ndamping = { kind = \"modal\", ratios = 0.1, stiffness = \"current\" }") ==
-        "s.toml:3:57: error: stiffness belongs to rayleigh damping");
+        "s.toml:3:55: error: stiffness belongs to rayleigh damping");
 }

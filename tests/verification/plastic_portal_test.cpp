@@ -13,7 +13,7 @@ TEST_CASE("a portal frame is led along its plastic plateau to the load of the sw
   constexpr double height = 4, span = 6, width = 0.1, depth = 0.2, fy = 235e6, E = 210e9;  // [m], [Pa]
   constexpr int layers = 40;
   ModelDescription d;
-  d.materials = {{"steel", {}, ElasticPP{E, fy / E}}};
+  d.materials = {{"steel", {}, Steel01{fy, E, 1e-4}}};
   FiberSectionDescription fibers;
   for (int i = 0; i < layers; ++i) {
     fibers.fibers.push_back({depth * ((i + 0.5) / layers - 0.5), 0, width * depth / layers, {"steel", {}}});
@@ -37,8 +37,8 @@ TEST_CASE("a portal frame is led along its plastic plateau to the load of the sw
   push.loads = {{{"a.2", {}}, 0, 1000}};
   push.control_node = Reference{"a.2", {}};
   push.options.control = "displacement";
-  push.options.targets = {0.6};
-  push.options.steps = 120;
+  push.options.targets = {0.2};
+  push.options.steps = 40;
   d.stages = {push};
   const Model model = build(d);
   Simulation simulation(model, {});
@@ -49,8 +49,8 @@ TEST_CASE("a portal frame is led along its plastic plateau to the load of the sw
   const double limit = 4 * full * (1 - axial * axial) / height;
   const auto& points = summary.stages[0].points;
   const double reached = 1000 * points.back().load_factor;
-  CHECK(reached < limit * (1 + 1e-6));
-  CHECK(reached > limit * (1 - 2e-3));  // what is left of the elastic core at 15 % drift
-  CHECK(1000 * points[60].load_factor > 0.99 * reached);
+  CHECK(reached < limit * (1 + 4e-3));
+  CHECK(reached > limit * (1 - 4e-3));  // hardening adds 2e-3 and the elastic core takes 1e-3 at 5 % drift
+  CHECK(1000 * points[20].load_factor > 0.99 * reached);
   CHECK(summary.stages[0].halved == 0);
 }
