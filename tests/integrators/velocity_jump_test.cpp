@@ -87,23 +87,25 @@ TEST_CASE("the jump of a frame in pounding does on the pair what the impulse did
 
 TEST_CASE("jumps of halved steps are told in the order of time, each with its part of the impulse") {
   AnalysisOptions o = options(0.5, 0.01, 0.3);
-  o.max_newton = 2;
-  o.newton_tolerance = 1e-12;
-  o.algorithm = {"newton"};  // another one would find the step without halving it
+  o.algorithm = {"newton"};
+  o.max_newton = 1;  // so that yielding steps are halved
+  o.newton_tolerance = 1e-3;
   ModelDescription d = nonlinear_oscillator(100, Steel02{1e4, 1e6, 0.01}, 0, 4);
-  d.contacts = {wall("s.1", 0.05, 0.6)};
-  bool halved_with_impact = false;
-  for (const Step& step : steps_of(d, o)) {
-    for (std::size_t i = 0; i < step.report.jumps.size(); ++i) {
-      const VelocityJump& jump = step.report.jumps[i];
-      CHECK(jump.time >= step.before.time);
-      CHECK(jump.time <= step.after.time);
-      if (i > 0) CHECK(jump.time > step.report.jumps[i - 1].time);
+  int halved_with_impact = 0;
+  for (const double gap : {0.01, 0.02, 0.03, 0.04, 0.05, 0.06}) {
+    d.contacts = {wall("s.1", gap, 0.6)};
+    for (const Step& step : steps_of(d, o)) {
+      for (std::size_t i = 0; i < step.report.jumps.size(); ++i) {
+        const VelocityJump& jump = step.report.jumps[i];
+        CHECK(jump.time >= step.before.time);
+        CHECK(jump.time <= step.after.time);
+        if (i > 0) CHECK(jump.time > step.report.jumps[i - 1].time);
+      }
+      halved_with_impact += step.report.substeps > 1 && !step.report.jumps.empty();
+      double impulse = 0;
+      for (const Impact& impact : step.impacts) impulse += impact.impulse;
+      CHECK(impulse == doctest::Approx(step.after.impulse[0]).epsilon(8 * epsilon));
     }
-    halved_with_impact = halved_with_impact || (step.report.substeps > 1 && !step.report.jumps.empty());
-    double impulse = 0;
-    for (const Impact& impact : step.impacts) impulse += impact.impulse;
-    CHECK(impulse == doctest::Approx(step.after.impulse[0]).epsilon(8 * epsilon));
   }
-  CHECK(halved_with_impact);
+  CHECK(halved_with_impact > 0);
 }
