@@ -1,5 +1,5 @@
 // Spectra of oscillators that stand on chosen nodes, driven by the nodes' absolute motion along x, y and z. An impact is
-// a jump of the node's velocity, not a large acceleration over one step: the spectra don't depend on the time step for it
+// a jump of the node's velocity, not a large acceleration over one step: the spectra don't grow as the step shrinks
 // (theory.md, 124).
 #pragma once
 
