@@ -16,12 +16,8 @@ constexpr double force_tolerance = 1e-12;  // of released forces, relative to th
 
 }  // namespace
 
-Matrix3x5 DisplacementBeams::strain_interpolation(double x, double L) {
-  Matrix3x5 B = Matrix3x5::Zero();
-  B(0, 0) = 1 / L;
-  B(1, 1) = B(2, 3) = (6 * x - 4) / L;
-  B(1, 2) = B(2, 4) = (6 * x - 2) / L;
-  return B;
+Interpolation DisplacementBeams::strain_interpolation(double x, double L) {
+  return {1 / L, (6 * x - 4) / L, (6 * x - 2) / L};
 }
 
 double DisplacementBeams::torsion_stiffness(const FiberMember& member) const {
@@ -31,14 +27,14 @@ double DisplacementBeams::torsion_stiffness(const FiberMember& member) const {
 }
 
 DisplacementBeams::Basic DisplacementBeams::integrate(const Element& e, const Vector5& deformation, const double* committed,
-                                                      double* trial) const {
+                                                      double* trial, bool with_tangent) const {
   Basic basic;
   for (int i = 0; i < e.points(); ++i) {
-    const Matrix3x5 B = strain_interpolation(e.position(i), e.frame.length);
-    const SectionResponse response =
-        nsframe::respond(e.section(i), B * deformation, e.section_history(committed, i), e.section_history(trial, i));
-    basic.force += e.weight(i) * (B.transpose() * response.force);
-    basic.tangent += e.weight(i) * (B.transpose() * response.tangent * B);
+    const Interpolation b = strain_interpolation(e.position(i), e.frame.length);
+    const SectionResponse response = nsframe::respond(e.section(i), b(deformation), e.section_history(committed, i),
+                                                      e.section_history(trial, i), with_tangent);
+    b.add_transposed(e.weight(i), response.force, basic.force);
+    if (with_tangent) b.add_congruent(e.weight(i), response.tangent, basic.tangent);
   }
   return basic;
 }
@@ -50,7 +46,7 @@ DisplacementBeams::Basic DisplacementBeams::release(int element, Vector5& deform
   for (int i = 0; i < 5; ++i) released[i] = e.releases.basic[static_cast<std::size_t>(i)] ? 1 : 0;
   double scale = 0;
   for (int iteration = 0;; ++iteration) {
-    Basic basic = integrate(e, deformation, committed, trial);
+    Basic basic = integrate(e, deformation, committed, trial, true);
     basic.force += load;
     const Vector5 unbalance = released.cwiseProduct(basic.force);
     scale = std::max(scale, basic.force.cwiseAbs().maxCoeff());
@@ -73,7 +69,7 @@ DisplacementBeams::Basic DisplacementBeams::release(int element, Vector5& deform
 }
 
 void DisplacementBeams::respond_basic(int element, const Vector6& v, double part, double, const double* committed,
-                                      double* trial, Vector6& force, Matrix6& tangent) const {
+                                      double* trial, Vector6& force, Matrix6* tangent) const {
   const Element& e = element_at(element);
   Vector5 load = Vector5::Zero(), deformation = v.head<5>();
   if (!e.load.empty()) load = part * clamped_forces(e.load, e.frame.length).head<5>();
@@ -86,7 +82,7 @@ void DisplacementBeams::respond_basic(int element, const Vector6& v, double part
     basic = release(element, deformation, load, committed, trial);
     found = deformation;
   } else {
-    basic = integrate(e, deformation, committed, trial);
+    basic = integrate(e, deformation, committed, trial, tangent != nullptr);
     basic.force += load;
   }
   with_torsion(e, basic.force, basic.tangent, v[5], force, tangent);
@@ -101,7 +97,7 @@ std::vector<SectionResult> DisplacementBeams::basic_sections(int element, const 
   }
   std::vector<SectionResult> results;
   for (int i = 0; i < e.points(); ++i) {
-    results.push_back(section_result(e, i, strain_interpolation(e.position(i), e.frame.length) * deformation, history));
+    results.push_back(section_result(e, i, strain_interpolation(e.position(i), e.frame.length)(deformation), history));
   }
   return results;
 }

@@ -12,7 +12,7 @@ class DisplacementBeams : public FiberBeams {
 
  protected:
   void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
-                     double* trial, Vector6& force, Matrix6& tangent) const override;
+                     double* trial, Vector6& force, Matrix6* tangent) const override;
   std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
                                             const double* history) const override;
   // With releases: the basic deformations as found last, those of the released ends in particular.
@@ -25,8 +25,9 @@ class DisplacementBeams : public FiberBeams {
     Matrix5 tangent = Matrix5::Zero();
   };
   // Section deformation (e0, kz, ky) at x in [0, 1] from the first five basic deformations.
-  static Matrix3x5 strain_interpolation(double x, double length);
-  Basic integrate(const Element& element, const Vector5& deformation, const double* committed, double* trial) const;
+  static Interpolation strain_interpolation(double x, double length);
+  Basic integrate(const Element& element, const Vector5& deformation, const double* committed, double* trial,
+                  bool with_tangent) const;
   // Finds the deformations at released ends that leave no force there, from a first guess in `deformation`.
   Basic release(int element, Vector5& deformation, const Vector5& load, const double* committed, double* trial) const;
 };

@@ -44,10 +44,10 @@ void ElasticBeams::add(const ElementNodes& nodes, std::string id, ElasticMember 
 }
 
 void ElasticBeams::respond_basic(int element, const Vector6& deformation, double part, double, const double*, double*,
-                                 Vector6& force, Matrix6& tangent) const {
+                                 Vector6& force, Matrix6* tangent) const {
   const Element& e = element_at(element);
-  tangent = e.stiffness;
-  force.noalias() = tangent * deformation;
+  if (tangent) *tangent = e.stiffness;
+  force.noalias() = e.stiffness * deformation;
   if (!e.load.empty()) force += part * e.clamped;
 }
 

@@ -30,7 +30,7 @@ class ElasticBeams : public Members {
  protected:
   bool linear_basic() const override { return true; }
   void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
-                     double* trial, Vector6& force, Matrix6& tangent) const override;
+                     double* trial, Vector6& force, Matrix6* tangent) const override;
   // At the ends; of a member with a load also between them.
   std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
                                             const double* history) const override;

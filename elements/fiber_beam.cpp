@@ -37,11 +37,12 @@ int FiberBeams::fibers(int element) const {
 }
 
 void FiberBeams::with_torsion(const Element& e, const Vector5& basic_force, const Matrix5& basic_tangent, double twist,
-                              Vector6& force, Matrix6& tangent) {
+                              Vector6& force, Matrix6* tangent) {
   force << basic_force, e.torsion * twist;
-  tangent.setZero();
-  tangent.topLeftCorner<5, 5>() = basic_tangent;
-  tangent(5, 5) = e.torsion;
+  if (!tangent) return;
+  tangent->setZero();
+  tangent->topLeftCorner<5, 5>() = basic_tangent;
+  (*tangent)(5, 5) = e.torsion;
 }
 
 SectionResult FiberBeams::section_result(const Element& e, int point, const Vector3& deformation,

@@ -27,7 +27,7 @@ HWY_INLINE void store_history(const History& history, double* to, std::ptrdiff_t
   (reinterpret_cast<const Lanes*>(&history)[k].store(to + static_cast<std::ptrdiff_t>(k) * stride), ...);
 }
 
-template <class Law>
+template <bool with_tangent, class Law>
 HWY_NOINLINE void add_block(const Law& block_law, const FiberSection& section, const FiberBlock& block,
                             const Vector3& deformation, const double* committed, double* trial, SectionResponse& total) {
   using History = typename Law::template History<Lanes>;
@@ -43,11 +43,12 @@ HWY_NOINLINE void add_block(const Law& block_law, const FiberSection& section, c
     const History before = load_history<History>(committed + block.history_begin + i, count, Components<History>());
     const auto response = respond(law, e0 - y * kz + z * ky, before);
     store_history(response.history, trial + block.history_begin + i, count, Components<History>());
-    const Lanes force = response.stress * area, stiffness = response.tangent * area;
-    const Lanes stiffness_y = stiffness * y, stiffness_z = stiffness * z;
+    const Lanes force = response.stress * area;
     n = n + force;
     mz = mul_add(force, y, mz);
     my = mul_add(force, z, my);
+    if constexpr (!with_tangent) continue;
+    const Lanes stiffness = response.tangent * area, stiffness_y = stiffness * y, stiffness_z = stiffness * z;
     ea = ea + stiffness;
     eay = eay + stiffness_y;
     eaz = eaz + stiffness_z;
@@ -56,6 +57,7 @@ HWY_NOINLINE void add_block(const Law& block_law, const FiberSection& section, c
     eayz = mul_add(stiffness_y, z, eayz);
   }
   total.force += Vector3(n.sum(), -mz.sum(), my.sum());
+  if constexpr (!with_tangent) return;
   const double EA = ea.sum(), EAy = eay.sum(), EAz = eaz.sum(), EAyz = eayz.sum();
   Matrix3 tangent;
   tangent << EA, -EAy, EAz, -EAy, eayy.sum(), -EAyz, EAz, -EAyz, eazz.sum();
@@ -104,14 +106,16 @@ bool stay_quiet_target(const FiberSection& section, const Vector3& deformation, 
 }
 
 void respond_target(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial,
-                    SectionResponse& total) {
+                    bool with_tangent, SectionResponse& total) {
   for (const FiberBlock& block : section.blocks) {
     std::visit(
         [&](const auto& law) HWY_ATTR {
-          if constexpr (PlainLaw<std::decay_t<decltype(law)>>)
-            add_block(law, section, block, deformation, committed, trial, total);
-          else
+          if constexpr (!PlainLaw<std::decay_t<decltype(law)>>)
             add_wrapped_block(section, block, deformation, committed, trial, total);
+          else if (with_tangent)
+            add_block<true>(law, section, block, deformation, committed, trial, total);
+          else
+            add_block<false>(law, section, block, deformation, committed, trial, total);
         },
         block.law);
   }
@@ -131,21 +135,21 @@ bool stay_quiet(const FiberSection& section, const Vector3& deformation, const d
   return HWY_DYNAMIC_DISPATCH(stay_quiet_target)(section, deformation, committed, trial);
 }
 
-SectionResponse respond(const FiberSection& section, const Vector3& deformation, const double* committed,
-                        double* trial) {
+SectionResponse respond(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial,
+                        bool with_tangent) {
   SectionResponse sum;
   if (is_quiet(committed)) {
     if (stay_quiet(section, deformation, committed, trial)) {
       sum.force.noalias() = section.virgin.tangent * deformation;
       sum.force += section.virgin.force;
-      sum.tangent = section.virgin.tangent;
+      if (with_tangent) sum.tangent = section.virgin.tangent;
       return sum;
     }
     open_history(section, committed, trial);
     committed = trial;  // a fiber's history is read before it is written
   }
   trial[0] = 0;
-  HWY_DYNAMIC_DISPATCH(respond_target)(section, deformation, committed, trial, sum);
+  HWY_DYNAMIC_DISPATCH(respond_target)(section, deformation, committed, trial, with_tangent, sum);
   return sum;
 }
 

@@ -53,9 +53,9 @@ struct FiberSection {
 void initialize_history(const FiberSection& section, double* history);
 
 // Section forces and tangent at `deformation` = (e0, kz, ky) from the committed fiber histories (history_size
-// doubles each); writes the histories at the trial strains.
-SectionResponse respond(const FiberSection& section, const Vector3& deformation, const double* committed,
-                        double* trial);
+// doubles each); writes the histories at the trial strains. Without `with_tangent` there is no tangent.
+SectionResponse respond(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial,
+                        bool with_tangent = true);
 
 // A block's share of it when its law is a wrapper: the law on arrays (wrapper.hpp), then the sums.
 void add_wrapped_block(const FiberSection& section, const FiberBlock& block, const Vector3& deformation,

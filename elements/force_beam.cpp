@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/errors.hpp"
+#include "base/symmetric_inverse.hpp"
 
 namespace nsframe {
 
@@ -24,13 +25,7 @@ struct Head {
 };
 
 // N, Mz, My at x in [0, 1] from the basic forces: constant and linear.
-Matrix3x5 force_interpolation(double x) {
-  Matrix3x5 b = Matrix3x5::Zero();
-  b(0, 0) = 1;
-  b(1, 1) = b(2, 3) = x - 1;
-  b(1, 2) = b(2, 4) = x;
-  return b;
-}
+Interpolation force_interpolation(double x) { return {1, x - 1, x}; }
 
 constexpr int max_inner_iterations = 60;
 constexpr int max_line_search = 30;
@@ -51,7 +46,7 @@ double ForceBeams::torsion_stiffness(const FiberMember& member) const {
 
 // Section force at a point: from the basic forces, and from the load by equilibrium.
 Vector3 ForceBeams::section_force(const Element& e, const Vector5& basic_force, double part, int point) {
-  Vector3 force = force_interpolation(e.position(point)) * basic_force;
+  Vector3 force = force_interpolation(e.position(point))(basic_force);
   if (part != 0) force += part * nsframe::section_force(e.load, e.position(point), e.frame.length);
   return force;
 }
@@ -96,7 +91,7 @@ void ForceBeams::balance(const Element& e, const Vector5& deformation, double pa
   }
   flexibility.triangularView<Eigen::StrictlyLower>() = flexibility.transpose();
   if (!e.releases.any()) {
-    head.tangent = flexibility.inverse();
+    head.tangent = symmetric_inverse<5>(flexibility);
     head.force = head.tangent * wanted;
     return;
   }
@@ -106,7 +101,7 @@ void ForceBeams::balance(const Element& e, const Vector5& deformation, double pa
   }
   Matrix5 among_tied = tied.asDiagonal() * flexibility * tied.asDiagonal();
   among_tied.diagonal() += Vector5::Ones() - tied;
-  head.tangent = tied.asDiagonal() * among_tied.inverse() * tied.asDiagonal();
+  head.tangent = tied.asDiagonal() * symmetric_inverse<5>(among_tied) * tied.asDiagonal();
   head.force = head.tangent * wanted;
 }
 
@@ -172,7 +167,7 @@ void ForceBeams::find_sections(int element, const Vector5& deformation, double p
 }
 
 void ForceBeams::respond_basic(int element, const Vector6& v, double part, double rounding, const double* committed,
-                               double* trial, Vector6& force, Matrix6& tangent) const {
+                               double* trial, Vector6& force, Matrix6* tangent) const {
   find_sections(element, v.head<5>(), part, rounding, committed, trial);
   const Head head(trial);
   with_torsion(element_at(element), head.force, head.tangent, v[5], force, tangent);

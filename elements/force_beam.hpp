@@ -14,7 +14,7 @@ class ForceBeams : public FiberBeams {
  protected:
   void initialize_basic(int element, double* history) const override;
   void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
-                     double* trial, Vector6& force, Matrix6& tangent) const override;
+                     double* trial, Vector6& force, Matrix6* tangent) const override;
   std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
                                             const double* history) const override;
   // Basic forces (5), element tangent (25), then for each point: deformation (3), force (3), tangent (9).

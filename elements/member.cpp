@@ -30,7 +30,8 @@ void Members::respond(int element, const Vector12& displacement, const double* c
   Vector6 basic_force;
   Matrix6 basic_tangent;
   const Vector6 deformation = geometry_.deformation(frame, displacement, committed, trial);
-  respond_basic(element, deformation, part, geometry_.rounding(displacement), committed + own, trial + own, basic_force, basic_tangent);
+  respond_basic(element, deformation, part, geometry_.rounding(displacement), committed + own, trial + own, basic_force,
+                tangent ? &basic_tangent : nullptr);
   geometry_.to_global(frame, displacement, committed, basic_force, basic_tangent, force, tangent);
   const MemberLoad* const acting = load(element);
   if (acting && !acting->empty()) geometry_.add_load(frame, *acting, part, displacement, force, tangent);

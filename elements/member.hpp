@@ -35,9 +35,9 @@ class Members : public ElementGroup {
   virtual void start_basic(int element, const double* committed, double* trial) const {
     (void)element; (void)committed; (void)trial;
   }
-  // `part`: of the member's load that acts; `rounding`: of the deformations [m, rad].
+  // Force, and its derivative if `tangent` is not null. `part`: of the member's load that acts; `rounding`: of the deformations [m, rad].
   virtual void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
-                             double* trial, Vector6& force, Matrix6& tangent) const = 0;
+                             double* trial, Vector6& force, Matrix6* tangent) const = 0;
   virtual std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
                                                     const double* history) const = 0;
 

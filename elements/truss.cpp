@@ -21,11 +21,12 @@ UniaxialPoint Trusses::axial(const Element& e, double elongation, const double* 
 }
 
 void Trusses::respond_basic(int element, const Vector6& deformation, double, double, const double* committed,
-                            double* trial, Vector6& force, Matrix6& tangent) const {
+                            double* trial, Vector6& force, Matrix6* tangent) const {
   const UniaxialPoint point = axial(elements_[static_cast<std::size_t>(element)], deformation[0], committed, trial);
   force = point.stress * Vector6::Unit(0);
-  tangent.setZero();
-  tangent(0, 0) = point.tangent;
+  if (!tangent) return;
+  tangent->setZero();
+  (*tangent)(0, 0) = point.tangent;
 }
 
 std::vector<SectionResult> Trusses::basic_sections(int element, const Vector6& deformation, double, const double* history) const {

@@ -156,9 +156,11 @@ void Assembler::set_load_factor(double factor, VectorX& history) const {
   }
 }
 
-void Assembler::internal_force(const VectorX& displacement, const VectorX& committed, VectorX& trial, VectorX& force) {
+void Assembler::internal_force(const VectorX& displacement, const VectorX& committed, VectorX& trial, VectorX& force,
+                               bool with_tangent) {
   linear_operator_.multiply(displacement, force);
   if (nonlinear_.empty()) return;
+  tangent_is_current_ = with_tangent;
   full_displacement_.noalias() = model_.dofs.transformation * displacement;
   const int count = static_cast<int>(nonlinear_.size());
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(count));
@@ -169,7 +171,7 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
     try {
       const Vector12 u = gather(*placed.group, placed.element, full_displacement_);
       placed.group->respond(placed.element, u, committed.data() + placed.history_begin,
-                            trial.data() + placed.history_begin, forces_[at], &tangents_[at]);
+                            trial.data() + placed.history_begin, forces_[at], with_tangent ? &tangents_[at] : nullptr);
     } catch (...) {
       failures[at] = std::current_exception();
     }
@@ -177,7 +179,7 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
   for (const std::exception_ptr& failure : failures) {
     if (failure) std::rethrow_exception(failure);
   }
-  std::copy(linear_values_.begin(), linear_values_.end(), tangent_.valuePtr());
+  if (with_tangent) std::copy(linear_values_.begin(), linear_values_.end(), tangent_.valuePtr());
   full_force_.setZero(model_.dofs.full);
   for (std::size_t i = 0; i < nonlinear_.size(); ++i) {
     const Placed& placed = nonlinear_[i];
@@ -185,7 +187,7 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
       const int node = placed.group->nodes(placed.element)[static_cast<std::size_t>(end)];
       if (node >= 0) full_force_.segment<6>(6 * node) += forces_[i].segment<6>(6 * end);
     }
-    scatter(placed, tangents_[i], tangent_.valuePtr());
+    if (with_tangent) scatter(placed, tangents_[i], tangent_.valuePtr());
   }
   force.noalias() += model_.dofs.transformation_transposed * full_force_;
 }

@@ -29,11 +29,14 @@ class Assembler {
   double load_factor(const VectorX& history) const;
   void set_load_factor(double factor, VectorX& history) const;
 
-  // P(q) [N, N m], less the loads on nonlinear members, at `displacement`; writes the trial history, and keeps the tangent for tangent().
+  // P(q) [N, N m], less the loads on nonlinear members, at `displacement`; writes the trial history, and keeps the tangent
+  // for tangent() where it is wanted: it costs about as much as the force.
   void internal_force(const VectorX& displacement, const VectorX& committed_history, VectorX& trial_history,
-                      VectorX& force);
-  // dP/dq at the last internal_force(); same pattern always.
+                      VectorX& force, bool with_tangent = true);
+  // dP/dq at the last internal_force() with tangent; same pattern always.
   const SparseMatrix& tangent() const { return tangent_; }
+  // That was the last internal_force() of all.
+  bool tangent_is_current() const { return tangent_is_current_; }
 
   // The element whose nodes carry the largest part of `residual` (free DOFs), for messages.
   std::string worst_element(const VectorX& residual) const;
@@ -58,6 +61,7 @@ class Assembler {
   std::vector<BlockRange> blocks_;
   std::vector<Placed> linear_, nonlinear_;
   SparseMatrix tangent_;
+  bool tangent_is_current_ = true;
   std::vector<double> linear_values_;
   BlockOperator linear_operator_;
   std::vector<Vector12> forces_;

@@ -124,7 +124,8 @@ void assemble_damping(System& system, const SparseMatrix& stiffness, std::vector
   system.damping.viscous.resize(system.model.dofs.size(), system.model.dofs.size());
   system.damping.viscous.setFromTriplets(viscous.begin(), viscous.end());
   if (system.damping.follows_tangent()) {
-    system.damping.form_tangent(Eigen::Map<const VectorX>(stiffness.valuePtr(), stiffness.nonZeros()), stiffness);
+    const Eigen::Map<const VectorX> entries(stiffness.valuePtr(), stiffness.nonZeros());
+    system.damping.form_tangent(stiffness, entries, entries);
   }
   for (std::size_t i = 0; i < structures.size(); ++i) {
     const BlockRange range = system.assembler.blocks()[i];

@@ -60,6 +60,11 @@ namespace {
 bool run(NonlinearStep& step, Algorithm& algorithm, int most, Attempt& attempt) {
   try {
     step.restart();
+    attempt.error = step.error();
+    if (step.guess_may_stand() && attempt.error <= 1) {
+      attempt.converged = true;
+      return true;
+    }
     algorithm.start();
     do {
       if (attempt.iterations >= most) return false;

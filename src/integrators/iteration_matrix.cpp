@@ -8,26 +8,34 @@
 
 namespace nsframe {
 
+namespace {
+
+// Solves from which on an inverse, about as dear as sixty of them, has paid for itself.
+constexpr int solves_before_inverse = 40;
+
+}  // namespace
+
 IterationMatrix::IterationMatrix(const System& system, IterationMatrixOptions options)
-    : symmetric_(system.assembler.symmetric()), linear_(system.linear()) {
-  explicit_inverse_ = linear_;
+    : options_(options), symmetric_(system.assembler.symmetric()), linear_(system.linear()) {
+  invertible_ = true;
   for (const BlockRange& range : system.assembler.blocks()) {
     if (range.size() == 0) continue;
     Block& block = blocks_.emplace_back();
     block.range = range;
     block.dense = range.size() <= options.dense_limit;
-    explicit_inverse_ = explicit_inverse_ && block.dense;
+    invertible_ = invertible_ && block.dense;
   }
 }
 
 void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness, double a) {
   ++factorizations_;
   a_ = -1;
-  stiffness_.assign(stiffness.valuePtr(), stiffness.valuePtr() + stiffness.nonZeros());
+  solves_ = 0;
+  if (&stiffness != &stiffness_) stiffness_ = stiffness;
+  if (!linear_) stiffness_operator_ = BlockOperator(stiffness, system.assembler.blocks(), options_.dense_limit);
   damping_.assign(system.damping.tangent.valuePtr(), system.damping.tangent.valuePtr() + system.damping.tangent.nonZeros());
   responses_.assign(static_cast<std::size_t>(system.contacts().size()), VectorX());
   std::size_t structure = 0;
-  std::vector<MatrixX> inverses;
   for (Block& block : blocks_) {
     while (system.assembler.blocks()[structure].size() == 0) ++structure;
     block.modal = &system.damping.modal[structure++];
@@ -46,23 +54,28 @@ void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness
     } catch (const ConvergenceError& problem) {
       throw ConvergenceError(fmt::format("structure '{}': {}", system.model.structures[structure - 1].name, problem.what()));
     }
-    if (explicit_inverse_) {
-      const MatrixX identity = MatrixX::Identity(block.range.size(), block.range.size());
-      inverses.push_back(block.use_lu ? MatrixX(block.lu.solve(identity)) : MatrixX(block.cholesky.solve(identity)));
-    }
   }
-  if (explicit_inverse_) {
-    std::vector<BlockRange> ranges;
-    for (const Block& block : blocks_) ranges.push_back(block.range);
-    inverse_ = BlockOperator(inverses, ranges);
-  }
+  if (invertible_ && linear_) invert();
   a_ = a;
+}
+
+void IterationMatrix::invert() {
+  std::vector<MatrixX> inverses;
+  std::vector<BlockRange> ranges;
+  for (const Block& block : blocks_) {
+    const MatrixX identity = MatrixX::Identity(block.range.size(), block.range.size());
+    inverses.push_back(block.use_lu ? MatrixX(block.lu.solve(identity)) : MatrixX(block.cholesky.solve(identity)));
+    ranges.push_back(block.range);
+  }
+  inverse_ = BlockOperator(inverses, ranges);
+  solves_ = solves_before_inverse;
 }
 
 void IterationMatrix::save(Snapshot& snapshot) const {
   snapshot.put("iteration_matrix.a", a_);
   snapshot.put("iteration_matrix.factorizations", static_cast<double>(factorizations_));
-  snapshot.put("iteration_matrix.stiffness", stiffness_);
+  snapshot.put("iteration_matrix.solves", static_cast<double>(solves_));
+  snapshot.put("iteration_matrix.stiffness", std::vector<double>(stiffness_.valuePtr(), stiffness_.valuePtr() + stiffness_.nonZeros()));
   snapshot.put("iteration_matrix.damping", damping_);
 }
 
@@ -77,6 +90,8 @@ void IterationMatrix::restore(System& system, const Snapshot& snapshot) {
       snapshot.read("iteration_matrix.damping", damping);
     }
     factor(system, stiffness, a);
+    solves_ = static_cast<int>(snapshot.number("iteration_matrix.solves"));
+    if (solves_ >= solves_before_inverse) invert();
   }
   factorizations_ = static_cast<long>(snapshot.number("iteration_matrix.factorizations"));
 }
@@ -124,8 +139,9 @@ void IterationMatrix::solve_sparse(const Block& block, const MatrixX& rhs, Matri
   std::visit([&](const auto& factor) { x = factor->solve(rhs); }, block.sparse);
 }
 
-void IterationMatrix::solve(const VectorX& rhs, VectorX& x) const {
-  if (explicit_inverse_) {
+void IterationMatrix::solve(const VectorX& rhs, VectorX& x) {
+  if (invertible_ && solves_ < solves_before_inverse && ++solves_ == solves_before_inverse) invert();
+  if (invertible_ && solves_ >= solves_before_inverse) {
     inverse_.multiply(rhs, x);
     return;
   }

@@ -1,5 +1,5 @@
 // J = M + a C + a^2 K with a = theta h (theory.md, eq. 9), factored block by block, one block a connected structure.
-// Small structures: dense (an explicit inverse when the model is linear, since it is then used in every step). Large
+// Small structures: dense, with an explicit inverse once the factors have served so often that it pays. Large
 // ones: sparse, with the low-rank modal damping added by the Woodbury identity so that J keeps the pattern of K.
 #pragma once
 
@@ -29,7 +29,9 @@ class IterationMatrix {
   void restore(System& system, const Snapshot& snapshot);
 
   // x = J^-1 rhs; x and rhs may not be the same.
-  void solve(const VectorX& rhs, VectorX& x) const;
+  void solve(const VectorX& rhs, VectorX& x);
+  // y = K x with the stiffness in the factors.
+  void multiply_stiffness(const VectorX& x, VectorX& y) const { stiffness_operator_.multiply(x, y); }
   // J^-1 H' of one contact pair (computed once a factorization).
   const VectorX& response(const Contacts& contacts, int pair);
 
@@ -48,18 +50,22 @@ class IterationMatrix {
     Eigen::PartialPivLU<MatrixX> woodbury;  // I/a + U' J0^-1 U
     const MatrixX* modal = nullptr;
   };
+  void invert();
   void factor_dense(Block& block, MatrixX J) const;
   void factor_sparse(Block& block, const SparseMatrix& J, double a) const;
   static void solve_sparse(const Block& block, const MatrixX& rhs, MatrixX& x);
 
+  IterationMatrixOptions options_;
   bool symmetric_, linear_;
   double a_ = -1;
   long factorizations_ = 0;
-  std::vector<double> stiffness_;         // entries of the factored one, in the order of Assembler::tangent()
+  SparseMatrix stiffness_;                // in the factors
+  BlockOperator stiffness_operator_;      // the same
   std::vector<double> damping_;           // entries of Damping::tangent in the factored one
   std::vector<Block> blocks_;
   BlockOperator inverse_;
-  bool explicit_inverse_ = false;
+  bool invertible_ = false;               // all blocks are dense
+  int solves_ = 0;                        // since the last factorization
   std::vector<VectorX> responses_;
 };
 

@@ -13,7 +13,7 @@ namespace nsframe {
 namespace {
 
 // Residual reduction of one iteration above which the tangent is factored anew.
-constexpr double slow_reduction = 0.02;
+constexpr double slow_reduction = 0.005;
 // Accelerations below this count as zero when the residual is judged [m/s2].
 constexpr double least_acceleration = 1e-3;
 
@@ -36,14 +36,31 @@ void MoreauJean::find_active_pairs(const System& system, const State& committed,
   }
 }
 
-void MoreauJean::evaluate(System& system, const State& committed, State& trial, double h) {
+void MoreauJean::predict(System& system, const State& committed, double h, State& trial, StepResult& result) {
+  const double a = options_.theta * h;
+  free_residual_ = h * committed.internal_force - load_;
+  matrix_.multiply_stiffness(committed.velocity, mid_velocity_);
+  free_residual_ += (a * h) * mid_velocity_;
+  if (!departure_.empty()) free_residual_ += a * departure_.next();
+  if (system.damping.follows_tangent()) {
+    system.damping.form_tangent(system.assembler.tangent(), committed.damping_stiffness, committed.damping_stiffness);
+  }
+  system.damping.add_force(system.assembler.blocks(), h, committed.velocity, free_residual_);
+  matrix_.solve(free_residual_, mid_velocity_);
+  update_velocity(system, -mid_velocity_, trial, result);
+}
+
+void MoreauJean::evaluate(System& system, const State& committed, State& trial, double h, bool with_tangent) {
   const double theta = options_.theta;
   mid_velocity_ = (1 - theta) * committed.velocity + theta * trial.velocity;
   trial.displacement = committed.displacement + h * mid_velocity_;
-  system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force);
+  system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force, with_tangent);
   momentum_change_.noalias() = system.mass() * (trial.velocity - committed.velocity);
   free_residual_ = momentum_change_ + h * ((1 - theta) * committed.internal_force + theta * trial.internal_force) - load_;
-  if (system.damping.follows_tangent()) system.damping.form_tangent(committed.damping_stiffness, system.assembler.tangent());
+  if (system.damping.follows_tangent()) {
+    const SparseMatrix& K = system.assembler.tangent();
+    system.damping.form_tangent(K, committed.damping_stiffness, Eigen::Map<const VectorX>(K.valuePtr(), K.nonZeros()));
+  }
   system.damping.add_force(system.assembler.blocks(), h, mid_velocity_, free_residual_);
 }
 
@@ -117,28 +134,45 @@ class MoreauJean::Step : public NonlinearStep {
     scheme_.impulse_ = VectorX::Zero(result_.active_pairs);
     system_.assembler.start_step(committed_.history, trial_.history);
     trial_.velocity = committed_.velocity;
-    if (!system_.linear()) trial_.velocity += h_ * committed_.acceleration;
-    evaluate();
+    predicted_ = !system_.linear() && has_factors();
+    if (predicted_) {
+      scheme_.predict(system_, committed_, h_, trial_, result_);
+    } else if (!system_.linear()) {
+      trial_.velocity += h_ * committed_.acceleration;
+    }
+    evaluate(system_.damping.follows_tangent());
+    if (predicted_) error_of_guess_ = residual() / (scheme_.options_.theta * h_);
   }
   const VectorX& residual() const override { return scheme_.active_.empty() ? scheme_.free_residual_ : scheme_.residual_; }
+  bool guess_may_stand() const override { return predicted_; }
   double error() const override { return result_.residual / scheme_.options_.newton_tolerance; }
   void factor(Tangent which) override {
+    if (which == Tangent::current && !system_.assembler.tangent_is_current()) evaluate(true);
+    factored_ = true;
     const bool initial = which == Tangent::initial && system_.initial_stiffness.nonZeros() == system_.assembler.tangent().nonZeros();
     scheme_.matrix_.factor(system_, initial ? system_.initial_stiffness : system_.assembler.tangent(), scheme_.options_.theta * h_);
   }
   void solve(const VectorX& rhs, VectorX& x) override { scheme_.matrix_.solve(rhs, x); }
   void move(const VectorX& change) override {
     scheme_.update_velocity(system_, change, trial_, result_);
-    evaluate();
+    evaluate(system_.damping.follows_tangent());
   }
   bool has_factors() const override { return scheme_.matrix_.ready(scheme_.options_.theta * h_); }
   double slow_reduction() const override {
     return system_.linear() ? std::numeric_limits<double>::infinity() : nsframe::slow_reduction;
   }
 
+  // What the step shows of P beyond the factored stiffness, for the guess of the next one.
+  void keep_departure() {
+    Extrapolation& departure = scheme_.departure_;
+    if (factored_ || !predicted_) return departure.clear();
+    if (!departure.empty()) error_of_guess_ += departure.next();
+    departure.add(error_of_guess_);
+  }
+
  private:
-  void evaluate() {
-    scheme_.evaluate(system_, committed_, trial_, h_);
+  void evaluate(bool with_tangent) {
+    scheme_.evaluate(system_, committed_, trial_, h_, with_tangent);
     if (!scheme_.active_.empty()) scheme_.add_impulses(system_);
     result_.residual = residual().norm() / std::max(scheme_.force_scale(trial_, h_), 1e-300);
   }
@@ -149,6 +183,8 @@ class MoreauJean::Step : public NonlinearStep {
   State& trial_;
   double h_;
   StepResult& result_;
+  bool predicted_ = false, factored_ = false;
+  VectorX error_of_guess_;  // of P [N]
 };
 
 void MoreauJean::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
@@ -160,6 +196,7 @@ void MoreauJean::step(System& system, const State& committed, State& trial, doub
   system.load_impulse(committed.time, committed.time + h, load_);
   Step problem(*this, system, committed, trial, h, result);
   if (!ladder_.climb(problem, options_.max_newton, result.attempts)) fail(system, committed, result);
+  problem.keep_departure();
   result.newton_iterations = 0;
   for (const Attempt& attempt : result.attempts) result.newton_iterations += attempt.iterations;
   trial.time = committed.time + h;
@@ -203,6 +240,16 @@ void MoreauJean::report(const System& system, const State& committed, State& tri
   result.numerical *= options_.theta - 0.5;
   // q+ = q + h v + theta h (v+ - v): as if the velocity jumped here
   if (contact_change_.size() > 0) result.jumps.push_back({committed.time + (1 - options_.theta) * h, contact_change_});
+}
+
+void MoreauJean::save(Snapshot& snapshot) const {
+  matrix_.save(snapshot);
+  departure_.save("moreau_jean.departure", snapshot);
+}
+
+void MoreauJean::restore(System& system, const Snapshot& snapshot) {
+  matrix_.restore(system, snapshot);
+  departure_.restore("moreau_jean.departure", system.mass().rows(), snapshot);
 }
 
 Scheme::ModeResponse MoreauJean::mode_response(double w, double xi, double h) const {

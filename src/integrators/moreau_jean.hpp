@@ -7,6 +7,7 @@
 
 #include "contact/contact_problem.hpp"
 #include "integrators/algorithms.hpp"
+#include "integrators/extrapolation.hpp"
 #include "integrators/iteration_matrix.hpp"
 #include "integrators/scheme.hpp"
 
@@ -19,14 +20,16 @@ class MoreauJean : public Scheme {
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double h) const override;
   long factorizations() const override { return matrix_.factorizations(); }
-  void save(Snapshot& snapshot) const override { matrix_.save(snapshot); }
-  void restore(System& system, const Snapshot& snapshot) override { matrix_.restore(system, snapshot); }
+  void save(Snapshot& snapshot) const override;
+  void restore(System& system, const Snapshot& snapshot) override;
 
  private:
   class Step;
   void find_active_pairs(const System& system, const State& committed, double h, StepResult& result);
+  // First guess of the velocity: the step solved with the factored stiffness and the departure from it as extrapolated.
+  void predict(System& system, const State& committed, double h, State& trial, StepResult& result);
   // Internal force at the trial velocity; fills free_residual_ = R without the contact impulses.
-  void evaluate(System& system, const State& committed, State& trial, double h);
+  void evaluate(System& system, const State& committed, State& trial, double h, bool with_tangent);
   // Changes the velocity as an algorithm commands, then solves the contact problem on the active pairs.
   void update_velocity(const System& system, const VectorX& change, State& trial, StepResult& result);
   // Fills residual_ = R with the contact impulses.
@@ -43,6 +46,7 @@ class MoreauJean : public Scheme {
   VectorX gap_, rate_;                // at the start of the step
   VectorX impulse_;                   // of the active pairs
   VectorX load_, free_residual_, residual_, mid_velocity_, momentum_change_;
+  Extrapolation departure_;           // of P(q+) - P(q) - K (q+ - q) with the factored K, step by step [N]
   VectorX contact_change_;            // of the velocity, by the impulses; empty without
 };
 

@@ -22,6 +22,9 @@ class NonlinearStep {
   virtual void solve(const VectorX& rhs, VectorX& x) = 0;  // x = J^-1 rhs
   virtual void move(const VectorX& change) = 0;   // x += change, R evaluated there
 
+  // The first guess is one that may solve the step, as if an iteration had been made.
+  virtual bool guess_may_stand() const { return false; }
+
   // Factors of an earlier step may serve; and the reduction of R by an iteration above which they no longer do.
   virtual bool has_factors() const { return false; }
   virtual double slow_reduction() const { return 0; }
