@@ -62,12 +62,14 @@ void ForceBeams::initialize_basic(int element, double* history) const {
     head.section_tangent(i) = virgin.tangent;
   }
   PointMatrices flexibility;
-  balance(e, Vector5::Zero(), 0, history, flexibility);
+  balance(e, Vector5::Zero(), 0, true, history, flexibility);
 }
 
 // Basic forces and element tangent from the linearised sections: sum w b'(e + f (b q + s_load - s)) = v in the directions
-// without release, q = 0 in the others. Fills f.
-void ForceBeams::balance(const Element& e, const Vector5& deformation, double part, double* data, PointMatrices& f) const {
+// without release, q = 0 in the others. Fills f. Without `new_tangents` the section tangents are those that the element
+// tangent was found from.
+void ForceBeams::balance(const Element& e, const Vector5& deformation, double part, bool new_tangents, double* data,
+                         PointMatrices& f) const {
   constexpr std::array<int, 5> component{0, 1, 1, 2, 2};  // of the section force that a basic force makes
   Head head(data);
   Matrix5 flexibility = Matrix5::Zero();
@@ -83,26 +85,25 @@ void ForceBeams::balance(const Element& e, const Vector5& deformation, double pa
     for (int j = 0; j < 5; ++j) {
       const auto column = static_cast<std::size_t>(j);
       wanted[j] -= b[column] * remaining[component[column]];
-      for (int k = 0; k <= j; ++k) {
+      for (int k = 0; new_tangents && k <= j; ++k) {
         const auto row = static_cast<std::size_t>(k);
         flexibility(k, j) += weight * b[row] * b[column] * f[at](component[row], component[column]);
       }
     }
   }
-  flexibility.triangularView<Eigen::StrictlyLower>() = flexibility.transpose();
-  if (!e.releases.any()) {
-    head.tangent = symmetric_inverse<5>(flexibility);
-    head.force = head.tangent * wanted;
-    return;
-  }
+  if (new_tangents) head.tangent = tangent_of(e, flexibility.selfadjointView<Eigen::Upper>());
+  head.force = head.tangent * wanted;
+}
+
+Matrix5 ForceBeams::tangent_of(const Element& e, const Matrix5& flexibility) {
+  if (!e.releases.any()) return symmetric_inverse<5>(flexibility);
   Vector5 tied = Vector5::Ones();
   for (int j = 0; j < 5; ++j) {
     if (e.releases.basic[static_cast<std::size_t>(j)]) tied[j] = 0;
   }
   Matrix5 among_tied = tied.asDiagonal() * flexibility * tied.asDiagonal();
   among_tied.diagonal() += Vector5::Ones() - tied;
-  head.tangent = tied.asDiagonal() * symmetric_inverse<5>(among_tied) * tied.asDiagonal();
-  head.force = head.tangent * wanted;
+  return tied.asDiagonal() * symmetric_inverse<5>(among_tied) * tied.asDiagonal();
 }
 
 // Moves every section by `length` times its correction and evaluates it there. Returns the slope of the strain energy
@@ -135,7 +136,7 @@ void ForceBeams::find_sections(int element, const Vector5& deformation, double p
   PointMatrices flexibility;
   PointVectors start, correction;
   for (int iteration = 0;; ++iteration) {
-    balance(e, deformation, part, trial, flexibility);
+    balance(e, deformation, part, iteration > 0, trial, flexibility);
     // energies of the unbalanced, the changed and the whole section forces on the sections' flexibility
     double unbalance = 0, change = 0, scale = 0;
     for (int i = 0; i < e.points(); ++i) {

@@ -25,8 +25,10 @@ class ForceBeams : public FiberBeams {
   using PointVectors = std::array<Vector3, max_points>;
   using PointMatrices = std::array<Matrix3, max_points>;
   static Vector3 section_force(const Element& element, const Vector5& basic_force, double part, int point);
-  void balance(const Element& element, const Vector5& deformation, double part, double* head,
+  void balance(const Element& element, const Vector5& deformation, double part, bool new_tangents, double* head,
                PointMatrices& flexibility) const;
+  // From the flexibility of the directions without release.
+  static Matrix5 tangent_of(const Element& element, const Matrix5& flexibility);
   double move_sections(const Element& element, const PointVectors& start, const PointVectors& correction, double length,
                        double part, const double* committed, double* trial) const;
   // `rounding`: of the basic deformations [m, rad], for elements that do not deform at all.
