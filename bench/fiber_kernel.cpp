@@ -31,6 +31,14 @@ std::vector<Vector3> deformations() {
 
 using Respond = SectionResponse (*)(const FiberSection&, const Vector3&, const double*, double*);
 
+// By the kernel, with the tangent or without.
+SectionResponse kernel(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial) {
+  return respond(section, deformation, committed, trial);
+}
+SectionResponse force_only(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial) {
+  return respond(section, deformation, committed, trial, false);
+}
+
 void run(benchmark::State& state, Respond evaluate, const UniaxialLaw& law) {
   const FiberSection section = section_of(law);
   const std::vector<Vector3> path = deformations();
@@ -61,16 +69,26 @@ const BoucWen bouc_wen{0.02, 210e9, 2, 4e5, 4e5};
 const IMKBilin imk_bilin{210e9, 0.005, 0.02, 0.1,   235e6, 1.1, 0.3, 0.005, 0.02, 0.1,
                          235e6, 1.1,   0.3,  1.0, 1.0, 1.0};
 
-BENCHMARK_CAPTURE(run, kernel/Elastic, respond, elastic);
-BENCHMARK_CAPTURE(run, kernel/ElasticPP, respond, perfectly_plastic);
-BENCHMARK_CAPTURE(run, kernel/Steel01, respond, steel01);
-BENCHMARK_CAPTURE(run, kernel/Steel02, respond, steel02);
-BENCHMARK_CAPTURE(run, kernel/Concrete01, respond, concrete01);
-BENCHMARK_CAPTURE(run, kernel/Concrete02, respond, concrete02);
-BENCHMARK_CAPTURE(run, kernel/Concrete04, respond, concrete04);
-BENCHMARK_CAPTURE(run, kernel/Hysteretic, respond, hysteretic);
-BENCHMARK_CAPTURE(run, kernel/BoucWen, respond, bouc_wen);
-BENCHMARK_CAPTURE(run, kernel/IMKBilin, respond, imk_bilin);
+BENCHMARK_CAPTURE(run, kernel/Elastic, kernel, elastic);
+BENCHMARK_CAPTURE(run, kernel/ElasticPP, kernel, perfectly_plastic);
+BENCHMARK_CAPTURE(run, kernel/Steel01, kernel, steel01);
+BENCHMARK_CAPTURE(run, kernel/Steel02, kernel, steel02);
+BENCHMARK_CAPTURE(run, kernel/Concrete01, kernel, concrete01);
+BENCHMARK_CAPTURE(run, kernel/Concrete02, kernel, concrete02);
+BENCHMARK_CAPTURE(run, kernel/Concrete04, kernel, concrete04);
+BENCHMARK_CAPTURE(run, kernel/Hysteretic, kernel, hysteretic);
+BENCHMARK_CAPTURE(run, kernel/BoucWen, kernel, bouc_wen);
+BENCHMARK_CAPTURE(run, kernel/IMKBilin, kernel, imk_bilin);
+BENCHMARK_CAPTURE(run, force_only/Elastic, force_only, elastic);
+BENCHMARK_CAPTURE(run, force_only/ElasticPP, force_only, perfectly_plastic);
+BENCHMARK_CAPTURE(run, force_only/Steel01, force_only, steel01);
+BENCHMARK_CAPTURE(run, force_only/Steel02, force_only, steel02);
+BENCHMARK_CAPTURE(run, force_only/Concrete01, force_only, concrete01);
+BENCHMARK_CAPTURE(run, force_only/Concrete02, force_only, concrete02);
+BENCHMARK_CAPTURE(run, force_only/Concrete04, force_only, concrete04);
+BENCHMARK_CAPTURE(run, force_only/Hysteretic, force_only, hysteretic);
+BENCHMARK_CAPTURE(run, force_only/BoucWen, force_only, bouc_wen);
+BENCHMARK_CAPTURE(run, force_only/IMKBilin, force_only, imk_bilin);
 BENCHMARK_CAPTURE(run, scalar/Elastic, respond_scalar, elastic);
 BENCHMARK_CAPTURE(run, scalar/ElasticPP, respond_scalar, perfectly_plastic);
 BENCHMARK_CAPTURE(run, scalar/Steel01, respond_scalar, steel01);

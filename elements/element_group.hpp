@@ -109,6 +109,8 @@ class ElementGroup {
   }
   // The fibers at the integration points, point by point, and their states in that order; empty without fibers.
   virtual std::vector<FiberPlace> fiber_places(int element) const { (void)element; return {}; }
+  // How many of them stand in quiet sections (screening.hpp).
+  virtual int quiet_fibers(int element, const double* history) const { (void)element; (void)history; return 0; }
   virtual std::vector<FiberState> fiber_states(int element, const Vector12& displacement, const double* history) const {
     (void)element; (void)displacement; (void)history;
     return {};

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "elements/screening.hpp"
+
 namespace nsframe {
 
 void FiberBeams::add(const ElementNodes& nodes, std::string id, FiberMember member) {
@@ -33,6 +35,15 @@ ElementShape FiberBeams::shape(int element) const {
 int FiberBeams::fibers(int element) const {
   int count = 0;
   for (const auto& section : element_at(element).sections) count += section->fibers;
+  return count;
+}
+
+int FiberBeams::quiet_fibers(int element, const double* history) const {
+  const Element& e = element_at(element);
+  int count = 0;
+  for (int point = 0; point < e.points(); ++point) {
+    if (is_quiet(e.section_history(basic_history(element, history), point))) count += e.section(point).fibers;
+  }
   return count;
 }
 

@@ -67,6 +67,7 @@ class FiberBeams : public Members {
   std::vector<FiberPlace> fiber_places(int element) const override;
   std::vector<FiberState> fiber_states(int element, const Vector12& displacement, const double* history) const override;
   int fibers(int element) const;
+  int quiet_fibers(int element, const double* history) const override;
 
  protected:
   struct Element : FiberMember {

@@ -142,6 +142,14 @@ void Assembler::start_step(const VectorX& committed, VectorX& trial) const {
   }
 }
 
+long Assembler::quiet_fibers(const VectorX& history) const {
+  long count = 0;
+  for (const Placed& placed : nonlinear_) {
+    count += placed.group->quiet_fibers(placed.element, history.data() + placed.history_begin);
+  }
+  return count;
+}
+
 double Assembler::load_factor(const VectorX& history) const {
   for (const Placed& placed : nonlinear_) {
     const MemberLoad* const load = placed.group->load(placed.element);

@@ -19,6 +19,9 @@ class Assembler {
   bool symmetric() const { return symmetric_; }
   const std::vector<BlockRange>& blocks() const { return blocks_; }
   long fibers() const { return fibers_; }
+  int linear_elements() const { return static_cast<int>(linear_.size()); }
+  // Fibers in quiet sections (screening.hpp).
+  long quiet_fibers(const VectorX& history) const;
 
   VectorX virgin_history() const;
 

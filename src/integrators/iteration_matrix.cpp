@@ -16,7 +16,7 @@ constexpr int solves_before_inverse = 40;
 }  // namespace
 
 IterationMatrix::IterationMatrix(const System& system, IterationMatrixOptions options)
-    : options_(options), symmetric_(system.assembler.symmetric()), linear_(system.linear()) {
+    : symmetric_(system.assembler.symmetric()), linear_(system.linear()) {
   invertible_ = true;
   for (const BlockRange& range : system.assembler.blocks()) {
     if (range.size() == 0) continue;
@@ -31,8 +31,7 @@ void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness
   ++factorizations_;
   a_ = -1;
   solves_ = 0;
-  if (&stiffness != &stiffness_) stiffness_ = stiffness;
-  if (!linear_) stiffness_operator_ = BlockOperator(stiffness, system.assembler.blocks(), options_.dense_limit);
+  stiffness_.assign(stiffness.valuePtr(), stiffness.valuePtr() + stiffness.nonZeros());
   damping_.assign(system.damping.tangent.valuePtr(), system.damping.tangent.valuePtr() + system.damping.tangent.nonZeros());
   responses_.assign(static_cast<std::size_t>(system.contacts().size()), VectorX());
   std::size_t structure = 0;
@@ -75,7 +74,7 @@ void IterationMatrix::save(Snapshot& snapshot) const {
   snapshot.put("iteration_matrix.a", a_);
   snapshot.put("iteration_matrix.factorizations", static_cast<double>(factorizations_));
   snapshot.put("iteration_matrix.solves", static_cast<double>(solves_));
-  snapshot.put("iteration_matrix.stiffness", std::vector<double>(stiffness_.valuePtr(), stiffness_.valuePtr() + stiffness_.nonZeros()));
+  snapshot.put("iteration_matrix.stiffness", stiffness_);
   snapshot.put("iteration_matrix.damping", damping_);
 }
 

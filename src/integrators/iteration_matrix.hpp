@@ -30,8 +30,6 @@ class IterationMatrix {
 
   // x = J^-1 rhs; x and rhs may not be the same.
   void solve(const VectorX& rhs, VectorX& x);
-  // y = K x with the stiffness in the factors.
-  void multiply_stiffness(const VectorX& x, VectorX& y) const { stiffness_operator_.multiply(x, y); }
   // J^-1 H' of one contact pair (computed once a factorization).
   const VectorX& response(const Contacts& contacts, int pair);
 
@@ -55,12 +53,10 @@ class IterationMatrix {
   void factor_sparse(Block& block, const SparseMatrix& J, double a) const;
   static void solve_sparse(const Block& block, const MatrixX& rhs, MatrixX& x);
 
-  IterationMatrixOptions options_;
   bool symmetric_, linear_;
   double a_ = -1;
   long factorizations_ = 0;
-  SparseMatrix stiffness_;                // in the factors
-  BlockOperator stiffness_operator_;      // the same
+  std::vector<double> stiffness_;         // entries of the factored one, in the order of Assembler::tangent()
   std::vector<double> damping_;           // entries of Damping::tangent in the factored one
   std::vector<Block> blocks_;
   BlockOperator inverse_;

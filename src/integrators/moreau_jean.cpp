@@ -37,17 +37,14 @@ void MoreauJean::find_active_pairs(const System& system, const State& committed,
 }
 
 void MoreauJean::predict(System& system, const State& committed, double h, State& trial, StepResult& result) {
-  const double a = options_.theta * h;
-  free_residual_ = h * committed.internal_force - load_;
-  matrix_.multiply_stiffness(committed.velocity, mid_velocity_);
-  free_residual_ += (a * h) * mid_velocity_;
-  if (!departure_.empty()) free_residual_ += a * departure_.next();
-  if (system.damping.follows_tangent()) {
-    system.damping.form_tangent(system.assembler.tangent(), committed.damping_stiffness, committed.damping_stiffness);
-  }
-  system.damping.add_force(system.assembler.blocks(), h, committed.velocity, free_residual_);
+  // v+ - v = J^-1 (G - h P - a d + M v/theta) - v/theta
+  free_residual_ = load_ - h * committed.internal_force;
+  if (!departure_.empty()) free_residual_ -= (options_.theta * h) * departure_.next();
+  free_residual_.noalias() += system.mass() * (committed.velocity / options_.theta);
   matrix_.solve(free_residual_, mid_velocity_);
-  update_velocity(system, -mid_velocity_, trial, result);
+  ++result.solves;
+  mid_velocity_ -= committed.velocity / options_.theta;
+  update_velocity(system, mid_velocity_, trial, result);
 }
 
 void MoreauJean::evaluate(System& system, const State& committed, State& trial, double h, bool with_tangent) {
@@ -152,7 +149,10 @@ class MoreauJean::Step : public NonlinearStep {
     const bool initial = which == Tangent::initial && system_.initial_stiffness.nonZeros() == system_.assembler.tangent().nonZeros();
     scheme_.matrix_.factor(system_, initial ? system_.initial_stiffness : system_.assembler.tangent(), scheme_.options_.theta * h_);
   }
-  void solve(const VectorX& rhs, VectorX& x) override { scheme_.matrix_.solve(rhs, x); }
+  void solve(const VectorX& rhs, VectorX& x) override {
+    scheme_.matrix_.solve(rhs, x);
+    ++result_.solves;
+  }
   void move(const VectorX& change) override {
     scheme_.update_velocity(system_, change, trial_, result_);
     evaluate(system_.damping.follows_tangent());
@@ -189,6 +189,7 @@ class MoreauJean::Step : public NonlinearStep {
 
 void MoreauJean::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result.impacts.clear();
+  result.newton_iterations = result.solves = 0;
   result.jumps.clear();
   contact_change_.resize(0);
   find_active_pairs(system, committed, h, result);
@@ -197,8 +198,8 @@ void MoreauJean::step(System& system, const State& committed, State& trial, doub
   Step problem(*this, system, committed, trial, h, result);
   if (!ladder_.climb(problem, options_.max_newton, result.attempts)) fail(system, committed, result);
   problem.keep_departure();
-  result.newton_iterations = 0;
   for (const Attempt& attempt : result.attempts) result.newton_iterations += attempt.iterations;
+  result.guess_stood = result.newton_iterations == 0;
   trial.time = committed.time + h;
   if (active_.empty()) {
     trial.acceleration = (trial.velocity - committed.velocity) / h;

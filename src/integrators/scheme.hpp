@@ -16,6 +16,8 @@ namespace nsframe {
 // What one accepted step did.
 struct StepResult {
   int newton_iterations = 0;
+  int solves = 0;                    // of the linearised step
+  bool guess_stood = false;          // no iteration was needed
   int active_pairs = 0;
   double residual = 0;               // relative
   double complementarity_error = 0;

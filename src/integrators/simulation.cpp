@@ -219,6 +219,9 @@ Summary Simulation::run(const std::vector<Observer*>& observers, const RunContro
   summary.laddered_steps = result.laddered_steps;
   summary.ladder = std::move(result.ladder);
   summary.factorizations = scheme_->factorizations();
+  summary.savings = {system_.assembler.linear_elements(),
+                     result.quiet_samples > 0 ? result.quiet_fibers / double(result.quiet_samples * system_.assembler.fibers()) : 0,
+                     result.guessed_steps, std::max(0L, result.solves - summary.factorizations)};
   summary.completed = result.completed;
   summary.interrupted = result.interrupted;
   summary.stop_reason = result.stop_reason;

@@ -12,6 +12,8 @@ namespace nsframe {
 
 namespace {
 
+constexpr int quiet_sampling = 16;  // steps between two looks at the quiet fibers
+
 // The sums by name, for snapshots.
 template <class Sums, class Visit>
 void visit_sums(Sums& sums, const Visit& visit) {
@@ -19,6 +21,10 @@ void visit_sums(Sums& sums, const Visit& visit) {
   visit("newton_iterations", sums.newton_iterations);
   visit("halved_steps", sums.halved_steps);
   visit("laddered_steps", sums.laddered_steps);
+  visit("guessed_steps", sums.guessed_steps);
+  visit("solves", sums.solves);
+  visit("quiet_fibers", sums.quiet_fibers);
+  visit("quiet_samples", sums.quiet_samples);
   visit("kinetic", sums.energy.kinetic);
   visit("strain", sums.energy.strain);
   visit("damping", sums.energy.damping);
@@ -121,6 +127,8 @@ void TimeHistory::add(const StepResult& step) {
   report_.residual = std::max(report_.residual, step.residual);
   report_.complementarity_error = std::max(report_.complementarity_error, step.complementarity_error);
   result_.newton_iterations += step.newton_iterations;
+  result_.solves += step.solves;
+  if (step.guess_stood) ++result_.guessed_steps;
   result_.max_complementarity_error = std::max(result_.max_complementarity_error, step.complementarity_error);
   result_.max_penetration = std::max(result_.max_penetration, -step.least_gap);
   result_.energy.strain += step.strain;
@@ -173,6 +181,10 @@ bool TimeHistory::step(int number, const State& committed, State& trial) {
   }
   ++result_.steps;
   watch_energy(trial);
+  if (result_.steps % quiet_sampling == 0 && system_.assembler.fibers() > 0) {
+    result_.quiet_fibers += static_cast<double>(system_.assembler.quiet_fibers(trial.history));
+    ++result_.quiet_samples;
+  }
   result_.impacts.insert(result_.impacts.end(), step_impacts_.begin(), step_impacts_.end());
   observe([&](Observer& observer) {
     for (const Impact& impact : step_impacts_) observer.impact(impact);

@@ -301,6 +301,11 @@ std::string summary_json(const Summary& summary) {
       {"laddered_steps", summary.laddered_steps},
       {"ladder", ladder_json(summary.ladder)},
       {"factorizations", summary.factorizations},
+      {"savings",
+       {{"elements_assembled_once", summary.savings.elements_assembled_once},
+        {"quiet_fibers", summary.savings.quiet_fibers},
+        {"guessed_steps", summary.savings.guessed_steps},
+        {"factorizations_avoided", summary.savings.factorizations_avoided}}},
       {"timing",
        {{"setup", summary.timing.setup}, {"step_loop", summary.timing.step_loop}, {"output", summary.timing.output}}},
       {"warnings", summary.warnings}};

@@ -248,6 +248,14 @@ void put_modes(Buffer& out, const Summary& summary) {
   }
 }
 
+void put_savings(Buffer& out, const Summary& summary) {
+  const Savings& s = summary.savings;
+  fmt::format_to(std::back_inserter(out), "  saved: {} of {} assembled once", s.elements_assembled_once, counted(static_cast<std::size_t>(summary.elements), "element"));
+  if (summary.fibers > 0) fmt::format_to(std::back_inserter(out), ", {:.0f} % of the fibers in quiet sections", 100 * s.quiet_fibers);
+  if (s.guessed_steps > 0) fmt::format_to(std::back_inserter(out), ", {} steps solved by their first guess", s.guessed_steps);
+  line(out, ", {} factorizations avoided", s.factorizations_avoided);
+}
+
 void put_solution(Buffer& out, const Summary& summary) {
   line(out, "\nSolution");
   if (!summary.pairs.empty()) {
@@ -257,6 +265,7 @@ void put_solution(Buffer& out, const Summary& summary) {
   line(out, "  iterations {} ({:.2f} a step), halved steps {}, factorizations {}", summary.newton_iterations,
        summary.steps > 0 ? double(summary.newton_iterations) / summary.steps : 0.0, summary.halved_steps,
        summary.factorizations);
+  put_savings(out, summary);
   put_ladder(out, summary.ladder, "step", summary.laddered_steps);
   const Timing& t = summary.timing;
   line(out, "  wall time: setup {:.3f} s, step loop {:.3f} s ({:.1f} us a step), output {:.3f} s", t.setup, t.step_loop,

@@ -36,6 +36,8 @@ double largest_difference(const FiberSection& section) {
   for (int step = 0; step < 300; ++step) {
     deformation += Vector3(1e-3 * uniform(random), 0.03 * uniform(random), 0.03 * uniform(random));
     const SectionResponse a = respond(section, deformation, committed.data(), kernel.data());
+    const SectionResponse force_only = respond(section, deformation, committed.data(), scalar.data(), false);
+    difference = std::max(difference, (a.force - force_only.force).cwiseQuotient(virgin.diagonal().cwiseProduct(Vector3(1e-3, 0.03, 0.03))).cwiseAbs().maxCoeff());
     const SectionResponse b = respond_scalar(section, deformation, committed.data(), scalar.data());
     for (int i = 0; i < 3; ++i) {
       difference = std::max(difference, std::abs(a.force[i] - b.force[i]) / (virgin(i, i) * 1e-3 / (i ? 0.03 : 1)));

@@ -89,7 +89,7 @@ TEST_CASE("the summary file has every key of the contract and the numbers of the
   const auto json = nlohmann::json::parse(content(folder / "summary.json"));
   for (const char* key :
        {"scheme", "dt", "steps", "dofs", "frequencies", "impacts", "poundings", "peaks", "drifts", "floor_spectra", "energy", "numerical_damping",
-        "max_penetration", "newton_iterations", "timing", "warnings", "completed", "stop_reason", "title"}) {
+        "max_penetration", "newton_iterations", "savings", "timing", "warnings", "completed", "stop_reason", "title"}) {
     CHECK_MESSAGE(json.contains(key), key);
   }
   CHECK(json["impacts"].size() == 30);
