@@ -43,6 +43,8 @@ class MoreauJean : public Scheme {
   VectorX gap_, rate_;                // at the start of the step
   VectorX impulse_;                   // of the active pairs
   VectorX load_, free_residual_, residual_, mid_velocity_, momentum_change_;
+  VectorX rate_force_;                // of rate-dependent elements, at the theta point
+  RateEnergy rate_energy_;            // of the step
   VectorX contact_change_;            // of the velocity, by the impulses; empty without
 };
 
