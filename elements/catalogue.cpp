@@ -16,7 +16,8 @@ void for_each_shape(Visit&& visit) {
     for (const CatalogueShape& shape : table) visit(shape);
 }
 
-// "he 140 a" and "HEA 140" become "HEA140".
+}  // namespace
+
 std::string catalogue_name(std::string_view text) {
   std::string name;
   for (const char c : text) {
@@ -27,8 +28,6 @@ std::string catalogue_name(std::string_view text) {
                         std::isdigit(static_cast<unsigned char>(name[2])) && std::string_view("ABM").find(name.back()) != std::string_view::npos;
   return en_order ? "HE" + name.substr(name.size() - 1) + name.substr(2, name.size() - 3) : name;
 }
-
-}  // namespace
 
 const CatalogueShape* find_shape(std::string_view name) {
   const CatalogueShape* found = nullptr;

@@ -27,6 +27,8 @@ std::span<const CatalogueShape> w_shapes();
 // The shape of that name ("HEA 100", "hea100" or "HE 100 A": case and blanks ignored), or nullptr.
 const CatalogueShape* find_shape(std::string_view name);
 std::vector<std::string> shape_names();
+// "he 140 a" and "HEA 140" become "HEA140".
+std::string catalogue_name(std::string_view text);
 
 // Number of fibers: each flange across its width and its thickness, web along its depth; root fillets as one fiber each.
 struct ShapeMesh {

@@ -26,6 +26,19 @@ double DisplacementBeams::torsion_stiffness(const FiberMember& member) const {
   return sum / member.frame.length;
 }
 
+void DisplacementBeams::twist(const Element& e, double rate, const double* committed, double* trial, double& moment,
+                              double& stiffness) {
+  moment = stiffness = 0;
+  for (int i = 0; i < e.points(); ++i) {
+    const FiberSection& section = e.section(i);
+    UniaxialPoint point{section.torsion_stiffness * rate, section.torsion_stiffness};
+    if (section.added[2]) point = respond_added(section, 2, rate, e.section_history(committed, i), e.section_history(trial, i));
+    const double part = e.rule.weight[static_cast<std::size_t>(i)];
+    moment += part * point.stress;
+    stiffness += part * point.tangent / e.frame.length;
+  }
+}
+
 DisplacementBeams::Basic DisplacementBeams::integrate(const Element& e, const Vector5& deformation, const double* committed,
                                                       double* trial, bool with_tangent) const {
   Basic basic;
@@ -86,6 +99,10 @@ void DisplacementBeams::respond_basic(int element, const Vector6& v, double part
     basic.force += load;
   }
   with_torsion(e, basic.force, basic.tangent, v[5], force, tangent);
+  if (!e.twists) return;
+  double stiffness = 0;
+  twist(e, v[5] / e.frame.length, committed, trial, force[5], stiffness);
+  if (tangent) (*tangent)(5, 5) = stiffness;
 }
 
 std::vector<SectionResult> DisplacementBeams::basic_sections(int element, const Vector6& v, double,

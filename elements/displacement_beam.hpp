@@ -28,6 +28,10 @@ class DisplacementBeams : public FiberBeams {
   static Interpolation strain_interpolation(double x, double length);
   Basic integrate(const Element& element, const Vector5& deformation, const double* committed, double* trial,
                   bool with_tangent) const;
+  // Torsional moment and its derivative by the twist of the whole member, from the sections' laws; the twist per length is
+  // constant.
+  static void twist(const Element& element, double rate, const double* committed, double* trial, double& moment,
+                    double& stiffness);
   // Finds the deformations at released ends that leave no force there, from a first guess in `deformation`.
   Basic release(int element, Vector5& deformation, const Vector5& load, const double* committed, double* trial) const;
 };

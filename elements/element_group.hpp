@@ -10,6 +10,7 @@
 #include "base/types.hpp"
 #include "elements/fiber_results.hpp"
 #include "elements/sections.hpp"
+#include "materials/rate.hpp"
 
 namespace nsframe {
 
@@ -90,6 +91,23 @@ class ElementGroup {
   // ConvergenceError when an element's own iterations fail.
   virtual void respond(int element, const Vector12& displacement, const double* committed, double* trial,
                        Vector12& force, Matrix12* tangent) const = 0;
+
+  // True when forces depend on the rate of deformation: respond() is then the element at rest, and this what the motion of
+  // a time step adds. To be called after respond(); writes its part of `trial`. Force (12) at the theta point of the step
+  // that leads from the committed state to `displacement`, and its derivative (12x12) by that [N, N m].
+  virtual bool rate_dependent() const { return false; }
+  virtual RateEnergy respond_rate(int element, const Vector12& displacement, const double* committed, double* trial,
+                                  const StepSpan& step, Vector12& force, Matrix12& tangent) const {
+    (void)element; (void)displacement; (void)committed; (void)trial; (void)step;
+    force.setZero();
+    tangent.setZero();
+    return {};
+  }
+  // The same force (12) as the last time step left it in `history`, for the output.
+  virtual Vector12 rate_force(int element, const Vector12& displacement, const double* history) const {
+    (void)element; (void)displacement; (void)history;
+    return Vector12::Zero();
+  }
 
   // Constant viscous damping matrix (12x12), global axes [N s/m]; zero for most.
   virtual Matrix12 damping(int element) const { (void)element; return Matrix12::Zero(); }

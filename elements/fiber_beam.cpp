@@ -9,6 +9,7 @@ namespace nsframe {
 void FiberBeams::add(const ElementNodes& nodes, std::string id, FiberMember member) {
   Element e{std::move(member)};
   e.torsion = e.releases.basic[5] ? 0 : torsion_stiffness(e);
+  for (const auto& section : e.sections) e.twists = e.twists || (section->added[2] && !e.releases.basic[5]);
   int size = head_size(e);
   for (const auto& section : e.sections) {
     e.section_begin.push_back(size);

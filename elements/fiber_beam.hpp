@@ -72,6 +72,7 @@ class FiberBeams : public Members {
  protected:
   struct Element : FiberMember {
     double torsion = 0;              // GJ/L over the member [N m]
+    bool twists = false;             // some section has a law of torsion, and torsion is not released
     std::vector<int> section_begin = {};  // in the member's own history, one a point
     int points() const { return rule.size(); }
     const FiberSection& section(int point) const { return *sections[static_cast<std::size_t>(point)]; }

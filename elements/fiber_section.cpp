@@ -41,7 +41,8 @@ SectionResponse virgin_response(const FiberSection& section) {
 
 }  // namespace
 
-FiberSection::FiberSection(const std::vector<Fiber>& all, double gj) : torsion_stiffness(gj), history_size(section_head) {
+FiberSection::FiberSection(const std::vector<Fiber>& all, double gj, AddedLaws laws)
+    : torsion_stiffness(laws[2] ? nsframe::initial_tangent(*laws[2]) : gj), added(std::move(laws)), history_size(section_head) {
   std::vector<std::vector<const Fiber*>> by_law;
   for (const Fiber& fiber : all) {
     auto same = std::find_if(by_law.begin(), by_law.end(),
@@ -66,11 +67,33 @@ FiberSection::FiberSection(const std::vector<Fiber>& all, double gj) : torsion_s
     fibers += block.fibers;
     blocks.push_back(block);
   }
+  added_begin = history_size;
+  for (const auto& law : added) history_size += law ? nsframe::history_size(*law) : 0;
   virgin = virgin_response(*this);
   screened = can_be_quiet(*this);
 }
 
+namespace {
+
+// Where the history of an added law begins.
+int added_begin(const FiberSection& section, std::size_t which) {
+  int begin = section.added_begin;
+  for (std::size_t i = 0; i < which; ++i) begin += section.added[i] ? history_size(*section.added[i]) : 0;
+  return begin;
+}
+
+}  // namespace
+
+UniaxialPoint respond_added(const FiberSection& section, std::size_t which, double deformation, const double* committed,
+                            double* trial) {
+  const int begin = added_begin(section, which);
+  return respond(*section.added[which], deformation, committed + begin, trial + begin);
+}
+
 void initialize_history(const FiberSection& section, double* history) {
+  for (std::size_t i = 0; i < section.added.size(); ++i) {
+    if (section.added[i]) initialize_history(*section.added[i], history + added_begin(section, i));
+  }
   if (section.screened) return start_quiet(section, history);
   std::fill_n(history, section_head, 0.0);
   double virgin[max_history];

@@ -2,6 +2,8 @@
 // strain(y, z) = e0 - y kz + z ky;  N = sum s A, Mz = -sum s A y, My = sum s A z  (theory.md, "Sections").
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,13 +34,19 @@ struct FiberBlock {
   double quiet_limit = 0;      // of the law, 0 when it can't be screened
 };
 
+// Laws beside the fibers, each on its own: shear force by shear strain along y [N], along z, and torsional moment [N m] by
+// twist [rad/m].
+using AddedLaws = std::array<std::optional<UniaxialLaw>, 3>;
+
 inline constexpr int fiber_padding = 8;  // doubles in the widest SIMD register in use
 
 struct FiberSection {
   std::vector<double> y, z, area;
   std::vector<std::string> material;  // names; empty ones at the padding
   std::vector<FiberBlock> blocks;
-  double torsion_stiffness = 0;  // GJ [N m2]
+  double torsion_stiffness = 0;  // GJ, or the initial tangent of the law of torsion [N m2]
+  AddedLaws added;               // their histories stand behind those of the blocks
+  int added_begin = 0;
   int history_size = 0;          // doubles
   int fibers = 0;
   bool screened = false;         // starts quiet (screening.hpp)
@@ -46,7 +54,8 @@ struct FiberSection {
 
   FiberSection() = default;
   // Fibers with equal laws are gathered into blocks, in the order of their first appearance.
-  FiberSection(const std::vector<Fiber>& fibers, double torsion_stiffness);
+  // `added` of torsion replaces `torsion_stiffness`.
+  FiberSection(const std::vector<Fiber>& fibers, double torsion_stiffness, AddedLaws added = {});
 };
 
 // Virgin; quiet (screening.hpp) when the section is screened.
@@ -56,6 +65,10 @@ void initialize_history(const FiberSection& section, double* history);
 // doubles each); writes the histories at the trial strains. Without `with_tangent` there is no tangent.
 SectionResponse respond(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial,
                         bool with_tangent = true);
+
+// Added law `which` (as in AddedLaws, which must have it) at its deformation, from the committed history of the section.
+UniaxialPoint respond_added(const FiberSection& section, std::size_t which, double deformation, const double* committed,
+                            double* trial);
 
 // A block's share of it when its law is a wrapper: the law on arrays (wrapper.hpp), then the sums.
 void add_wrapped_block(const FiberSection& section, const FiberBlock& block, const Vector3& deformation,

@@ -13,19 +13,31 @@ namespace nsframe {
 namespace {
 
 // Views of the element's own part of the history (layout: head_size()).
+template <int n>
 struct Head {
-  Eigen::Map<Vector5> force;
-  Eigen::Map<Matrix5> tangent;
+  static constexpr int basics = n == 3 ? 5 : 6, begin = basics + basics * basics, point = 2 * n + n * n;
+  Eigen::Map<Eigen::Matrix<double, basics, 1>> force;
+  Eigen::Map<Eigen::Matrix<double, basics, basics>> tangent;
   double* point_data;
 
-  explicit Head(double* data) : force(data), tangent(data + 5), point_data(data + 30) {}
-  Eigen::Map<Vector3> section_deformation(int i) const { return Eigen::Map<Vector3>(point_data + 15 * i); }
-  Eigen::Map<Vector3> section_force(int i) const { return Eigen::Map<Vector3>(point_data + 15 * i + 3); }
-  Eigen::Map<Matrix3> section_tangent(int i) const { return Eigen::Map<Matrix3>(point_data + 15 * i + 6); }
+  explicit Head(double* data) : force(data), tangent(data + basics), point_data(data + begin) {}
+  using Vector = Eigen::Map<Eigen::Matrix<double, n, 1>>;
+  Vector section_deformation(int i) const { return Vector(point_data + point * i); }
+  Vector section_force(int i) const { return Vector(point_data + point * i + n); }
+  Eigen::Map<Eigen::Matrix<double, n, n>> section_tangent(int i) const {
+    return Eigen::Map<Eigen::Matrix<double, n, n>>(point_data + point * i + 2 * n);
+  }
 };
 
-// N, Mz, My at x in [0, 1] from the basic forces: constant and linear.
-Interpolation force_interpolation(double x) { return {1, x - 1, x}; }
+// Which component of the section force a basic force makes, and its factor at x in [0, 1]; the shear forces that two
+// basic forces make beside.
+struct ForceInterpolation {
+  std::array<int, 6> component;
+  std::array<double, 6> factor;
+};
+ForceInterpolation interpolation(double x) { return {{0, 1, 1, 2, 2, 5}, {1, x - 1, x, x - 1, x, 1}}; }
+// Component of the shear force, dM/dx, by basic force; none of the axial force and torsion.
+constexpr std::array<int, 6> shear_component{-1, 3, 3, 4, 4, -1};
 
 constexpr int max_inner_iterations = 60;
 constexpr int max_line_search = 30;
@@ -36,7 +48,8 @@ constexpr double force_tolerance = 1e-11;
 
 }  // namespace
 
-double ForceBeams::torsion_stiffness(const FiberMember& member) const {
+template <int n>
+double ForceBeamsOf<n>::torsion_stiffness(const FiberMember& member) const {
   double flexibility = 0;
   for (std::size_t i = 0; i < member.sections.size(); ++i) {
     flexibility += member.rule.weight[i] / member.sections[i]->torsion_stiffness;
@@ -45,81 +58,163 @@ double ForceBeams::torsion_stiffness(const FiberMember& member) const {
 }
 
 // Section force at a point: from the basic forces, and from the load by equilibrium.
-Vector3 ForceBeams::section_force(const Element& e, const Vector5& basic_force, double part, int point) {
-  Vector3 force = force_interpolation(e.position(point))(basic_force);
-  if (part != 0) force += part * nsframe::section_force(e.load, e.position(point), e.frame.length);
+template <int n>
+auto ForceBeamsOf<n>::section_force(const Element& e, const Basic& basic_force, double part, int point) -> Section {
+  const double x = e.position(point), L = e.frame.length;
+  const auto [component, factor] = interpolation(x);
+  Section force = Section::Zero();
+  for (int j = 0; j < basics; ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    force[component[at]] += factor[at] * basic_force[j];
+    if constexpr (n == 6) {
+      if (shear_component[at] >= 0) force[shear_component[at]] += basic_force[j] / L;
+    }
+  }
+  if (part != 0) force += part * load_force(e, x);
   return force;
 }
 
-void ForceBeams::initialize_basic(int element, double* history) const {
+template <int n>
+auto ForceBeamsOf<n>::load_force(const Element& e, double x) -> Section {
+  const LoadedSection s = section_forces(e.load, x, e.frame.length);
+  Section force = Section::Zero();
+  force.template head<3>() << s.force.x(), s.moment.z(), s.moment.y();
+  if constexpr (n == 6) force.template segment<2>(3) << -s.force.y(), s.force.z();  // dM/dx
+  return force;
+}
+
+// A section at its deformation. Where it is rigid in shear, the force is left to the caller.
+template <int n>
+void ForceBeamsOf<n>::respond_section(const FiberSection& section, const Section& deformation, const double* committed,
+                                      double* trial, Section& force, SectionMatrix& tangent) {
+  const SectionResponse response = nsframe::respond(section, deformation.template head<3>(), committed, trial);
+  if constexpr (n == 3) {
+    force = response.force;
+    tangent = response.tangent;
+  } else {
+    tangent.setZero();
+    force.template head<3>() = response.force;
+    tangent.template topLeftCorner<3, 3>() = response.tangent;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = static_cast<Eigen::Index>(3 + i);
+      UniaxialPoint point{0, 0};
+      if (section.added[i]) {
+        point = respond_added(section, i, deformation[at], committed, trial);
+      } else if (i == 2) {
+        point = {section.torsion_stiffness * deformation[at], section.torsion_stiffness};
+      }
+      force[at] = point.stress;
+      tangent(at, at) = point.tangent;
+    }
+  }
+}
+
+template <int n>
+auto ForceBeamsOf<n>::section_flexibility(const FiberSection& section, const SectionMatrix& tangent) -> SectionMatrix {
+  if constexpr (n == 3) {
+    return tangent.inverse();
+  } else {
+    SectionMatrix f = SectionMatrix::Zero();
+    f.template topLeftCorner<3, 3>() = tangent.template topLeftCorner<3, 3>().inverse();
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = static_cast<Eigen::Index>(3 + i);
+      if (i == 2 || section.added[i]) f(at, at) = 1 / tangent(at, at);
+    }
+    return f;
+  }
+}
+
+template <int n>
+void ForceBeamsOf<n>::initialize_basic(int element, double* history) const {
   FiberBeams::initialize_basic(element, history);
   const Element& e = element_at(element);
-  Head head(history);
+  Head<n> head(history);
   for (int i = 0; i < e.points(); ++i) {
     std::vector<double> scratch(static_cast<std::size_t>(e.section(i).history_size));
-    const SectionResponse virgin = nsframe::respond(e.section(i), Vector3::Zero(), e.section_history(history, i), scratch.data());
-    head.section_force(i) = virgin.force;
-    head.section_tangent(i) = virgin.tangent;
+    Section force;
+    SectionMatrix tangent;
+    respond_section(e.section(i), Section::Zero(), e.section_history(history, i), scratch.data(), force, tangent);
+    head.section_force(i) = force;
+    head.section_tangent(i) = tangent;
   }
   PointMatrices flexibility;
-  balance(e, Vector5::Zero(), 0, true, history, flexibility);
+  balance(e, Basic::Zero(), 0, true, history, flexibility);
 }
 
 // Basic forces and element tangent from the linearised sections: sum w b'(e + f (b q + s_load - s)) = v in the directions
 // without release, q = 0 in the others. Fills f. Without `new_tangents` the section tangents are those that the element
 // tangent was found from.
-void ForceBeams::balance(const Element& e, const Vector5& deformation, double part, bool new_tangents, double* data,
-                         PointMatrices& f) const {
-  constexpr std::array<int, 5> component{0, 1, 1, 2, 2};  // of the section force that a basic force makes
-  Head head(data);
-  Matrix5 flexibility = Matrix5::Zero();
-  Vector5 wanted = deformation;
+template <int n>
+void ForceBeamsOf<n>::balance(const Element& e, const Basic& deformation, double part, bool new_tangents, double* data,
+                              PointMatrices& f) const {
+  Head<n> head(data);
+  BasicMatrix flexibility = BasicMatrix::Zero();
+  Basic wanted = deformation;
+  const double L = e.frame.length;
   for (int i = 0; i < e.points(); ++i) {
     const auto at = static_cast<std::size_t>(i);
-    f[at] = head.section_tangent(i).inverse();
+    f[at] = section_flexibility(e.section(i), head.section_tangent(i));
     const double x = e.position(i), weight = e.weight(i);
-    const std::array<double, 5> b{1, x - 1, x, x - 1, x};  // the entries of force_interpolation(x)
-    Vector3 carried = head.section_force(i);
-    if (part != 0) carried -= part * nsframe::section_force(e.load, x, e.frame.length);
-    const Vector3 remaining = weight * (head.section_deformation(i) - f[at] * carried);
-    for (int j = 0; j < 5; ++j) {
+    const auto [component, b] = interpolation(x);
+    Section carried = head.section_force(i);
+    if (part != 0) carried -= part * load_force(e, x);
+    const Section remaining = weight * (head.section_deformation(i) - f[at] * carried);
+    for (int j = 0; j < basics; ++j) {
       const auto column = static_cast<std::size_t>(j);
       wanted[j] -= b[column] * remaining[component[column]];
       for (int k = 0; new_tangents && k <= j; ++k) {
         const auto row = static_cast<std::size_t>(k);
         flexibility(k, j) += weight * b[row] * b[column] * f[at](component[row], component[column]);
       }
+      if constexpr (n == 6) {
+        const int shear = shear_component[column];
+        if (shear < 0) continue;
+        wanted[j] -= remaining[shear] / L;
+        for (int k = 0; new_tangents && k <= j; ++k) {
+          if (shear_component[static_cast<std::size_t>(k)] == shear) flexibility(k, j) += weight * f[at](shear, shear) / (L * L);
+        }
+      }
     }
   }
-  if (new_tangents) head.tangent = tangent_of(e, flexibility.selfadjointView<Eigen::Upper>());
+  if (new_tangents) head.tangent = tangent_of(e, flexibility.template selfadjointView<Eigen::Upper>());
   head.force = head.tangent * wanted;
 }
 
-Matrix5 ForceBeams::tangent_of(const Element& e, const Matrix5& flexibility) {
-  if (!e.releases.any()) return symmetric_inverse<5>(flexibility);
-  Vector5 tied = Vector5::Ones();
-  for (int j = 0; j < 5; ++j) {
+template <int n>
+auto ForceBeamsOf<n>::tangent_of(const Element& e, const BasicMatrix& flexibility) -> BasicMatrix {
+  if (!e.releases.any()) return symmetric_inverse<basics>(flexibility);
+  Basic tied = Basic::Ones();
+  for (int j = 0; j < basics; ++j) {
     if (e.releases.basic[static_cast<std::size_t>(j)]) tied[j] = 0;
   }
-  Matrix5 among_tied = tied.asDiagonal() * flexibility * tied.asDiagonal();
-  among_tied.diagonal() += Vector5::Ones() - tied;
-  return tied.asDiagonal() * symmetric_inverse<5>(among_tied) * tied.asDiagonal();
+  BasicMatrix among_tied = tied.asDiagonal() * flexibility * tied.asDiagonal();
+  among_tied.diagonal() += Basic::Ones() - tied;
+  return tied.asDiagonal() * symmetric_inverse<basics>(among_tied) * tied.asDiagonal();
 }
 
 // Moves every section by `length` times its correction and evaluates it there. Returns the slope of the strain energy
 // along the correction: the work on it of the section forces in excess of the basic forces, which do none.
-double ForceBeams::move_sections(const Element& e, const PointVectors& start, const PointVectors& correction,
+template <int n>
+double ForceBeamsOf<n>::move_sections(const Element& e, const PointVectors& start, const PointVectors& correction,
                                  double length, double part, const double* committed, double* trial) const {
-  Head head(trial);
+  Head<n> head(trial);
   double slope = 0;
   for (int i = 0; i < e.points(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     head.section_deformation(i) = start[at] + length * correction[at];
-    const SectionResponse response = nsframe::respond(e.section(i), head.section_deformation(i),
-                                                      e.section_history(committed, i), e.section_history(trial, i));
-    head.section_force(i) = response.force;
-    head.section_tangent(i) = response.tangent;
-    const Vector3 excess = response.force - section_force(e, head.force, part, i);
+    Section force;
+    SectionMatrix tangent;
+    respond_section(e.section(i), head.section_deformation(i), e.section_history(committed, i), e.section_history(trial, i),
+                    force, tangent);
+    const Section wanted = section_force(e, head.force, part, i);
+    if constexpr (n == 6) {
+      for (const Eigen::Index shear : {0, 1}) {
+        if (!e.section(i).added[static_cast<std::size_t>(shear)]) force[3 + shear] = wanted[3 + shear];
+      }
+    }
+    head.section_force(i) = force;
+    head.section_tangent(i) = tangent;
+    const Section excess = force - wanted;
     slope += e.weight(i) * excess.dot(correction[at]);
   }
   return slope;
@@ -128,11 +223,12 @@ double ForceBeams::move_sections(const Element& e, const PointVectors& start, co
 // Given v, the section deformations minimise the strain energy under sum w b' e = v, with the basic forces as
 // multipliers. Newton on that; once the constraint holds (after the first full step), corrections keep it, and a line
 // search on the energy's slope ends the circles that sharply bent laws send Newton into.
-void ForceBeams::find_sections(int element, const Vector5& deformation, double part, double rounding,
+template <int n>
+void ForceBeamsOf<n>::find_sections(int element, const Basic& deformation, double part, double rounding,
                                const double* committed, double* trial) const {
   const Element& e = element_at(element);
-  Head head(trial);
-  const Head before(const_cast<double*>(committed));
+  Head<n> head(trial);
+  const Head<n> before(const_cast<double*>(committed));
   PointMatrices flexibility;
   PointVectors start, correction;
   for (int iteration = 0;; ++iteration) {
@@ -141,9 +237,9 @@ void ForceBeams::find_sections(int element, const Vector5& deformation, double p
     double unbalance = 0, change = 0, scale = 0;
     for (int i = 0; i < e.points(); ++i) {
       const auto at = static_cast<std::size_t>(i);
-      const Vector3 wanted = section_force(e, head.force, part, i);
-      const Vector3 changed = wanted - before.section_force(i), out_of_balance = wanted - head.section_force(i);
-      const Matrix3& f = flexibility[at];
+      const Section wanted = section_force(e, head.force, part, i);
+      const Section changed = wanted - before.section_force(i), out_of_balance = wanted - head.section_force(i);
+      const SectionMatrix& f = flexibility[at];
       start[at] = head.section_deformation(i);
       correction[at] = f * out_of_balance;
       unbalance += e.weight(i) * out_of_balance.dot(correction[at]);
@@ -167,19 +263,29 @@ void ForceBeams::find_sections(int element, const Vector5& deformation, double p
   }
 }
 
-void ForceBeams::respond_basic(int element, const Vector6& v, double part, double rounding, const double* committed,
-                               double* trial, Vector6& force, Matrix6* tangent) const {
-  find_sections(element, v.head<5>(), part, rounding, committed, trial);
-  const Head head(trial);
-  with_torsion(element_at(element), head.force, head.tangent, v[5], force, tangent);
+template <int n>
+void ForceBeamsOf<n>::respond_basic(int element, const Vector6& v, double part, double rounding, const double* committed,
+                                    double* trial, Vector6& force, Matrix6* tangent) const {
+  find_sections(element, v.template head<basics>(), part, rounding, committed, trial);
+  const Head<n> head(trial);
+  if constexpr (n == 3) {
+    with_torsion(element_at(element), head.force, head.tangent, v[5], force, tangent);
+  } else {
+    force = head.force;
+    if (tangent) *tangent = head.tangent;
+  }
 }
 
-std::vector<SectionResult> ForceBeams::basic_sections(int element, const Vector6&, double, const double* history) const {
+template <int n>
+std::vector<SectionResult> ForceBeamsOf<n>::basic_sections(int element, const Vector6&, double, const double* history) const {
   const Element& e = element_at(element);
-  const Head head(const_cast<double*>(history));
+  const Head<n> head(const_cast<double*>(history));
   std::vector<SectionResult> results;
-  for (int i = 0; i < e.points(); ++i) results.push_back(section_result(e, i, head.section_deformation(i), history));
+  for (int i = 0; i < e.points(); ++i) results.push_back(section_result(e, i, head.section_deformation(i).template head<3>(), history));
   return results;
 }
+
+template class ForceBeamsOf<3>;
+template class ForceBeamsOf<6>;
 
 }  // namespace nsframe

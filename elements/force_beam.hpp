@@ -6,7 +6,10 @@
 
 namespace nsframe {
 
-class ForceBeams : public FiberBeams {
+// Section forces are N, Mz, My (n = 3), or with the shear forces dMz/dx, dMy/dx and torsion (n = 6), where sections have
+// laws for these; compatibility of the member holds for all of them.
+template <int n>
+class ForceBeamsOf : public FiberBeams {
  public:
   using FiberBeams::FiberBeams;
   std::string_view kind() const override { return "force_beam"; }
@@ -17,23 +20,35 @@ class ForceBeams : public FiberBeams {
                      double* trial, Vector6& force, Matrix6* tangent) const override;
   std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
                                             const double* history) const override;
-  // Basic forces (5), element tangent (25), then for each point: deformation (3), force (3), tangent (9).
-  int head_size(const FiberMember& member) const override { return 30 + 15 * member.rule.size(); }
+  // Basic forces, element tangent, then for each point: deformation, force, tangent.
+  int head_size(const FiberMember& member) const override { return basics * (1 + basics) + n * (2 + n) * member.rule.size(); }
   double torsion_stiffness(const FiberMember& member) const override;
 
  private:
-  using PointVectors = std::array<Vector3, max_points>;
-  using PointMatrices = std::array<Matrix3, max_points>;
-  static Vector3 section_force(const Element& element, const Vector5& basic_force, double part, int point);
-  void balance(const Element& element, const Vector5& deformation, double part, bool new_tangents, double* head,
+  static constexpr int basics = n == 3 ? 5 : 6;  // basic forces; torsion apart where n = 3
+  using Section = Eigen::Matrix<double, n, 1>;
+  using SectionMatrix = Eigen::Matrix<double, n, n>;
+  using Basic = Eigen::Matrix<double, basics, 1>;
+  using BasicMatrix = Eigen::Matrix<double, basics, basics>;
+  using PointVectors = std::array<Section, max_points>;
+  using PointMatrices = std::array<SectionMatrix, max_points>;
+  static void respond_section(const FiberSection& section, const Section& deformation, const double* committed, double* trial,
+                              Section& force, SectionMatrix& tangent);
+  static SectionMatrix section_flexibility(const FiberSection& section, const SectionMatrix& tangent);
+  static Section section_force(const Element& element, const Basic& basic_force, double part, int point);
+  static Section load_force(const Element& element, double x);
+  void balance(const Element& element, const Basic& deformation, double part, bool new_tangents, double* head,
                PointMatrices& flexibility) const;
   // From the flexibility of the directions without release.
-  static Matrix5 tangent_of(const Element& element, const Matrix5& flexibility);
+  static BasicMatrix tangent_of(const Element& element, const BasicMatrix& flexibility);
   double move_sections(const Element& element, const PointVectors& start, const PointVectors& correction, double length,
                        double part, const double* committed, double* trial) const;
   // `rounding`: of the basic deformations [m, rad], for elements that do not deform at all.
-  void find_sections(int element, const Vector5& deformation, double part, double rounding, const double* committed,
+  void find_sections(int element, const Basic& deformation, double part, double rounding, const double* committed,
                      double* trial) const;
 };
+
+using ForceBeams = ForceBeamsOf<3>;
+using AggregatedForceBeams = ForceBeamsOf<6>;
 
 }  // namespace nsframe

@@ -41,7 +41,10 @@ class Members : public ElementGroup {
   virtual std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
                                                     const double* history) const = 0;
 
-  const double* basic_history(int element, const double* history) const { return history + own_begin(element); }
+  template <class Double>
+  Double* basic_history(int element, Double* history) const {
+    return history + own_begin(element);
+  }
 
   // A beam with an outline, or a straight bar without.
   ElementShape member_shape(int element, const SectionOutline* outline) const;

@@ -3,6 +3,7 @@
 // A catalogue shape has its depth along y, so Iz is its strong axis.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -33,6 +34,9 @@ struct FiberDescription {
 struct FiberSectionDescription {
   std::vector<FiberDescription> fibers;
   double torsion_stiffness = 0;  // GJ [N m2], uncoupled
+  // Laws beside the fibers, uncoupled: torsional moment [N m] by twist [rad/m] in place of GJ, and shear forces along
+  // local y and z [N] by shear strain; without these the section is rigid in shear.
+  std::optional<Reference> torsion, shear_y, shear_z;
 };
 
 // Outline of the cross-section in (y, z), for drawing the extruded member; open polygon, in order; may be empty.

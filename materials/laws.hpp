@@ -20,6 +20,9 @@
 #include "materials/min_max.hpp"
 #include "materials/parallel.hpp"
 #include "materials/series.hpp"
+// rate-dependent
+#include "materials/viscous.hpp"
+#include "materials/viscous_damper.hpp"
 
 #ifndef NSFRAME_MATERIALS_LAWS
 #define NSFRAME_MATERIALS_LAWS
@@ -49,7 +52,9 @@ using UniaxialLaw = std::variant<  //
     MinMax,                        //
     InitStrain,                    //
     InitStress,                    //
-    Fatigue>;
+    Fatigue,                       //
+    Viscous,                       //
+    ViscousDamper>;
 
 }  // namespace nsframe
 #endif

@@ -133,6 +133,21 @@ bool has_yielded(const UniaxialLaw& law, double strain, double stress) {
       law);
 }
 
+bool is_rate_dependent(const UniaxialLaw& law) {
+  return std::visit([](const auto& l) { return RateLaw<std::decay_t<decltype(l)>>; }, law);
+}
+
+RatePoint respond_rate(const UniaxialLaw& law, double strain, const double* committed, double* trial, const StepSpan& step) {
+  return std::visit(
+      [&](const auto& l) -> RatePoint {
+        if constexpr (RateLaw<std::decay_t<decltype(l)>>) return l.respond_rate(strain, committed, trial, step);
+        return {};
+      },
+      law);
+}
+
+double rate_stress(const UniaxialLaw& law, const double* history) { return is_rate_dependent(law) ? history[1] : 0; }
+
 void check_parameters(const UniaxialLaw& law) {
   std::visit([](const auto& l) { check_parameters_of(l); }, law);
 }

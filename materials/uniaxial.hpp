@@ -55,6 +55,16 @@ inline void initialize_history(const InnerLaw& law, double* history) { initializ
 inline double initial_tangent(const InnerLaw& law) { return initial_tangent(law.law->law); }
 inline double yield_strain(const InnerLaw& law) { return yield_strain(law.law->law); }
 
+// True when the stress depends on the rate of strain: respond() is then the law at rest (rate.hpp).
+bool is_rate_dependent(const UniaxialLaw& law);
+
+// The stress of a rate-dependent law over a time step that leads from the committed history to `strain`; writes the
+// trial history. Zero for other laws, whose history stays as it is.
+RatePoint respond_rate(const UniaxialLaw& law, double strain, const double* committed, double* trial, const StepSpan& step);
+
+// Stress that the last time step left in the history of a rate-dependent law [Pa]; zero for others.
+double rate_stress(const UniaxialLaw& law, const double* history);
+
 // Throws std::invalid_argument that begins with the name of the first parameter outside its range.
 void check_parameters(const UniaxialLaw& law);
 

@@ -17,7 +17,8 @@ namespace {
 // Elastic constants of a fiber section: its initial tangent with E = 1 Pa carried in A and I, and GJ likewise.
 ElasticSection elastic_constants(const FiberSection& section) {
   const Matrix3 k = initial_tangent(section);
-  return {1.0, 1.0, k(0, 0), k(1, 1), k(2, 2), section.torsion_stiffness};
+  const auto shear = [&section](std::size_t axis) { return section.added[axis] ? initial_tangent(*section.added[axis]) : 0; };
+  return {1.0, 1.0, k(0, 0), k(1, 1), k(2, 2), section.torsion_stiffness, shear(0), shear(1)};
 }
 
 // True when axial force and bending, or the two bendings, are coupled: A, Iz, Iy alone cannot describe the section.
@@ -44,7 +45,10 @@ std::shared_ptr<const FiberSection> elastic_fibers(const ElasticSection& s) {
   const double y = std::sqrt(s.Iz / s.A), z = std::sqrt(s.Iy / s.A);
   std::vector<Fiber> fibers;
   for (const auto& [at_y, at_z] : {std::pair{-y, -z}, {y, -z}, {-y, z}, {y, z}}) fibers.push_back({at_y, at_z, s.A / 4, Elastic{s.E}});
-  return std::make_shared<FiberSection>(fibers, s.G * s.J);
+  AddedLaws shear;
+  if (s.Ay > 0) shear[0] = Elastic{s.G * s.Ay};
+  if (s.Az > 0) shear[1] = Elastic{s.G * s.Az};
+  return std::make_shared<FiberSection>(fibers, s.G * s.J, std::move(shear));
 }
 
 MassSection mass_section(const std::vector<Fiber>& fibers) {
@@ -55,6 +59,23 @@ MassSection mass_section(const std::vector<Fiber>& fibers) {
     m.Iy += f.area * f.z * f.z;
   }
   return m;
+}
+
+// The law of torsion or shear of a section; nothing after an error.
+std::optional<UniaxialLaw> added_law(const SectionDescription& section, const Reference& reference, const Materials& materials,
+                                     Diagnostics& diagnostics) {
+  const auto law = materials.find(reference.name);
+  if (law == materials.end()) {
+    diagnostics.error(reference.at, fmt::format("material '{}' is not defined{}", reference.name,
+                                                did_you_mean(reference.name, keys(materials))));
+    return {};
+  }
+  if (is_rate_dependent(law->second) || !(initial_tangent(law->second) > 0)) {
+    diagnostics.error(reference.at, fmt::format("section '{}': material '{}' has no stiffness at rest, which torsion and shear need",
+                                                section.name, reference.name));
+    return {};
+  }
+  return law->second;
 }
 
 Library::Section resolve(const SectionDescription& section, const Materials& materials,
@@ -87,14 +108,27 @@ Library::Section resolve(const SectionDescription& section, const Materials& mat
       unknown = fiber.material.name;
       continue;
     }
+    if (is_rate_dependent(law->second)) {
+      if (unknown != fiber.material.name) {
+        diagnostics.error(fiber.material.at,
+                          fmt::format("section '{}': the stress of material '{}' depends on the rate of strain, which only "
+                                      "springs, links and trusses follow", section.name, fiber.material.name));
+      }
+      unknown = fiber.material.name;
+      continue;
+    }
     if (!(fiber.area > 0)) diagnostics.error(section.at, fmt::format("section '{}': a fiber's area must be positive", section.name));
     fibers.push_back({fiber.y, fiber.z, fiber.displaced ? -fiber.area : fiber.area, law->second, fiber.material.name});
   }
   if (description.fibers.empty()) diagnostics.error(section.at, fmt::format("section '{}' has no fibers", section.name));
-  if (!(description.torsion_stiffness > 0)) {
+  AddedLaws added;
+  for (const auto& [law, reference] : {std::pair{0, description.shear_y}, {1, description.shear_z}, {2, description.torsion}}) {
+    if (reference) added[static_cast<std::size_t>(law)] = added_law(section, *reference, materials, diagnostics);
+  }
+  if (!description.torsion && !(description.torsion_stiffness > 0)) {
     diagnostics.error(section.at, fmt::format("section '{}': the torsion stiffness GJ must be positive", section.name));
   }
-  auto built = std::make_shared<FiberSection>(fibers, description.torsion_stiffness);
+  auto built = std::make_shared<FiberSection>(fibers, description.torsion_stiffness, std::move(added));
   resolved.elastic = elastic_constants(*built);
   if (const ElasticSection& e = resolved.elastic; e.A < 0 || e.Iz < 0 || e.Iy < 0) {
     diagnostics.error(section.at, fmt::format("section '{}': more is displaced than there is", section.name));
@@ -243,11 +277,14 @@ void GroupBuilder::add_fiber(const Beam& beam) {
   } catch (const std::invalid_argument& problem) {
     return error(beam, problem.what());
   }
-  bool has_fibers = false;
+  bool has_fibers = false, aggregated = false;
   for (const Library::Section* section : sections_at_points(beam, member.rule.size())) {
-    if (section->elastic.Ay > 0 || section->elastic.Az > 0) {
-      return error(beam, fmt::format("section '{}' has shear areas, but only elastic beams deform in shear", section->description->name));
+    const AddedLaws& added = section->fibers->added;
+    if (element.kind == ElementKind::displacement_beam && (added[0] || added[1])) {
+      return error(beam, fmt::format("section '{}' deforms in shear, which elastic and force-based beams do, and "
+                                     "displacement-based ones don't", section->description->name));
     }
+    aggregated = aggregated || added[0] || added[1] || added[2];
     has_fibers = has_fibers || !section->is_elastic;
     member.sections.push_back(section->fibers);
   }
@@ -260,6 +297,8 @@ void GroupBuilder::add_fiber(const Beam& beam) {
   const std::string key = fmt::format("fiber {} {}", static_cast<int>(element.kind), static_cast<int>(element.geometry));
   if (element.kind == ElementKind::displacement_beam) {
     group<DisplacementBeams>(key, element.geometry).add(beam.nodes, beam.id, std::move(member));
+  } else if (aggregated) {
+    group<AggregatedForceBeams>("aggregated " + key, element.geometry).add(beam.nodes, beam.id, std::move(member));
   } else {
     group<ForceBeams>(key, element.geometry).add(beam.nodes, beam.id, std::move(member));
   }
@@ -279,6 +318,7 @@ void GroupBuilder::add_truss(const ElementDescription& element, const ElementNod
     return;
   }
   Trusses::Kind kind = is_linear(*law) && element.pretension == 0 ? Trusses::Kind::linear : Trusses::Kind::nonlinear;
+  if (is_rate_dependent(*law)) kind = Trusses::Kind::damper;
   if (element.kind == ElementKind::cable) {
     kind = Trusses::Kind::cable;
     if (!is_linear(*law)) {
@@ -307,15 +347,21 @@ void GroupBuilder::add(const SpringDescription& spring, const ElementNodes& node
   }
   properties.stiffness = spring.stiffness;
   properties.damping = spring.damping;
-  bool linear = true;
+  properties.p_delta = spring.p_delta;
+  Springs::Kind kind{!spring.p_delta, false, spring.p_delta.has_value()};
   for (std::size_t i = 0; i < 6; ++i) {
     if (!spring.law[i]) continue;
     const UniaxialLaw* law = find(library_.materials, *spring.law[i], "material", diagnostics_);
     if (!law) continue;
     properties.law[i] = *law;
-    linear = linear && is_linear(*law);
+    kind.linear = kind.linear && is_linear(*law);
+    kind.rates = kind.rates || is_rate_dependent(*law);
+    if (i == 0 && spring.p_delta && is_rate_dependent(*law)) {
+      diagnostics_.error(spring.law[i]->at, fmt::format("spring '{}': the P-Delta moments are those of an axial force that doesn't "
+                                                        "depend on the rate of deformation", id));
+    }
   }
-  group<Springs>(fmt::format("spring {}", linear), linear).add(nodes, id, std::move(properties));
+  group<Springs>(fmt::format("spring {} {} {}", kind.linear, kind.rates, kind.p_delta), kind).add(nodes, id, std::move(properties));
 }
 
 std::vector<std::unique_ptr<const ElementGroup>> GroupBuilder::take() {

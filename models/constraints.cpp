@@ -34,6 +34,8 @@ class Resolver {
     for (int k = 0; k < 6; ++k) {
       const double follow = constraint->follows(dof % 6, k);
       if (follow != 0 && !add(6 * constraint->master + k, factor * follow, row, depth + 1)) return false;
+      const double own = constraint->own(dof % 6, k);
+      if (own != 0 && !add(6 * constraint->slave + k, factor * own, row, depth + 1)) return false;
     }
     return true;
   }
@@ -51,15 +53,24 @@ NodeConstraint rigid_body_constraint(int master, int slave, const Vector3& arm, 
   return c;
 }
 
-NodeConstraint diaphragm_constraint(int master, int slave, const Vector3& arm, int normal, const Location& at) {
+// The slave keeps its displacement along the axis k nearest to the normal n and its rotations about the other two:
+//   u = p + n (u_k - p_k)/n_k with p = (I - n n') u_m + (n x arm) (n . r_m),   n . r = n . r_m
+NodeConstraint diaphragm_constraint(int master, int slave, const Vector3& arm, const Vector3& normal, const Location& at) {
   NodeConstraint c{at, master, slave, {}, Matrix6::Zero()};
-  const int first = (normal + 1) % 3, second = (normal + 2) % 3, turn = 3 + normal;
-  for (const int dof : {first, second, turn}) {
-    c.constrained[static_cast<std::size_t>(dof)] = true;
-    c.follows(dof, dof) = 1;
+  const Vector3 n = normal.normalized();
+  Eigen::Index kept = 0;
+  n.cwiseAbs().maxCoeff(&kept);
+  Eigen::Matrix<double, 3, 6> in_plane;
+  in_plane << Matrix3::Identity() - n * n.transpose(), n.cross(arm) * n.transpose();
+  for (Eigen::Index j = 0; j < 3; ++j) {
+    if (j == kept) continue;
+    c.constrained[static_cast<std::size_t>(j)] = true;
+    c.follows.row(j) = in_plane.row(j) - n[j] / n[kept] * in_plane.row(kept);
+    c.own(j, kept) = n[j] / n[kept];
+    c.own(3 + kept, 3 + j) = -n[j] / n[kept];
   }
-  c.follows(first, turn) = -arm[second];
-  c.follows(second, turn) = arm[first];
+  c.constrained[static_cast<std::size_t>(3 + kept)] = true;
+  c.follows.block<1, 3>(3 + kept, 3) = n.transpose() / n[kept];
   return c;
 }
 

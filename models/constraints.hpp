@@ -17,13 +17,13 @@ struct NodeConstraint {
   // For every constrained direction of the slave: the combination of the master's six directions that it follows.
   std::array<bool, 6> constrained{};
   Matrix6 follows = Matrix6::Zero();
+  Matrix6 own = Matrix6::Zero();      // and of the slave's directions that are not constrained
 };
 
 // Rigid body: u_s = u_m + r_m x arm, r_s = r_m, with arm from master to slave [m].
 NodeConstraint rigid_body_constraint(int master, int slave, const Vector3& arm, const Location& at);
-// Rigid diaphragm normal to a global axis (0, 1, 2): the two displacements in its plane and the rotation about the normal
-// follow.
-NodeConstraint diaphragm_constraint(int master, int slave, const Vector3& arm, int normal, const Location& at);
+// Rigid diaphragm: the two displacements in its plane and the rotation about `normal` (of any length) follow.
+NodeConstraint diaphragm_constraint(int master, int slave, const Vector3& arm, const Vector3& normal, const Location& at);
 NodeConstraint equal_dof_constraint(int master, int slave, const std::array<bool, 6>& dofs, const Location& at);
 
 // `fixed`: full DOFs without freedom. `order`: nodes in the order in which their free DOFs are numbered.

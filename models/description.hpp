@@ -96,6 +96,9 @@ struct SpringDescription {
   std::optional<Vector3> in_plane;
   // Of a link: place of its shear springs along local y and z, in [0, 1] from node_i.
   std::optional<Vector2> shear_distance;
+  // Of a link: shares of the moment N delta that the ends take as moments, about local y at i and j, about local z at i and
+  // j; a couple of shear forces balances the rest. None: no P-Delta.
+  std::optional<std::array<double, 4>> p_delta;
   std::array<std::optional<Reference>, 6> law;            // material: "stress" is force [N, N m], "strain" displacement
 };
 
@@ -111,7 +114,7 @@ struct ConstraintDescription {
   Reference master;
   std::vector<Reference> slaves;
   std::array<bool, 6> dofs{true, true, true, true, true, true};  // equal_dof only
-  int normal = 2;                                                // diaphragm only: global axis 0, 1, 2
+  Vector3 normal = Vector3::UnitZ();                             // diaphragm only, of any length
 };
 
 // A slab as seen by contact and by the output: its corner nodes in order around it. How it carries load is said by

@@ -54,6 +54,11 @@ class Resolver {
     }
     const UniaxialLaw& law = resolve(name);
     if (failed_.contains(name)) return false;
+    if (is_rate_dependent(law)) {
+      diagnostics_.error(inner.reference.at, fmt::format("the stress of material '{}' depends on the rate of strain: no law can be made "
+                                                         "of it; put it in a spring, link or truss of its own", name));
+      return false;
+    }
     inner.law = std::make_shared<const WrappedLaw>(WrappedLaw{law});
     return true;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -118,6 +119,7 @@ class Expansion {
         if (floor == 0 && !point.column) continue;
         const Vector3 position = frame_.origin + Vector3(point.x, point.y, elevation);
         out_.nodes.push_back({node(floor, point.number).name, frame_.at, position});
+        position_.emplace(out_.nodes.back().id, position);
       }
     }
   }
@@ -159,6 +161,9 @@ class Expansion {
     element.integration = members.integration;
     element.mass = members.mass;
     element.geometry = members.geometry;
+    if (members.releases) element.releases = basic_releases(*members.releases);
+    const Vector3 along = (position_.at(element.node_j.name) - position_.at(element.node_i.name)).normalized();
+    element.offset = {members.rigid_ends[0] * along, -members.rigid_ends[1] * along};
     return element;
   }
 
@@ -258,6 +263,7 @@ class Expansion {
 
   const StoryFrame& frame_;
   StructureDescription out_;
+  std::map<std::string, Vector3> position_;  // of the nodes
   GridLines x_, y_;
   std::vector<PlanPoint> points_;  // by rising number
   std::vector<int> grid_;          // number of the column line (ix, iy) at iy * x_.count() + ix
@@ -269,6 +275,11 @@ void check_list(std::vector<std::string>& faults, std::string_view what, std::si
   if (size > 1 && size != static_cast<std::size_t>(stories))
     faults.push_back(
         fmt::format("{} has {} values, must have one, or one for each of the {} stories", what, size, stories));
+}
+
+double shortest_span(const StoryFrame& frame, std::size_t axis) {
+  const std::vector<double>& plan = frame.plan[axis];
+  return plan.size() == 1 ? plan.front() / frame.bays[axis] : *std::min_element(plan.begin(), plan.end());
 }
 
 constexpr double max_nodes = 1e6;  // a slip of the pen must not fill the memory
@@ -291,6 +302,13 @@ ElementKind element_kind(BeamKind kind) {
     default:
       return ElementKind::elastic_beam;
   }
+}
+
+Releases basic_releases(const EndReleases& ends) {
+  Releases out;
+  const auto &i = ends.i.dofs, &j = ends.j.dofs;
+  out.basic = {i[0] || j[0], i[5], j[5], i[4], j[4], i[3] || j[3]};
+  return out;
 }
 
 ElementKind element_kind(BarKind kind) { return kind == BarKind::cable ? ElementKind::cable : ElementKind::truss; }
@@ -317,6 +335,13 @@ std::vector<std::string> faults(const StoryFrame& frame) {
   check_list(out, "floor_mass", frame.mass.floor.size(), frame.stories);
   check_list(out, "centre_inertia", frame.mass.centre_inertia.size(), frame.stories);
   if (frame.columns.section.empty()) out.push_back("columns have no section");
+  const auto check_ends = [&out](std::string_view key, const FrameMembers& members, double shortest) {
+    if (members.rigid_ends[0] + members.rigid_ends[1] >= shortest)
+      out.push_back(fmt::format("{}.rigid_ends leave nothing of a member of {} m", key, shortest));
+  };
+  if (!frame.height.empty()) check_ends("columns", frame.columns, *std::min_element(frame.height.begin(), frame.height.end()));
+  if (frame.beams && !frame.plan[0].empty() && !frame.plan[1].empty())
+    check_ends("beams", *frame.beams, std::min(shortest_span(frame, 0), shortest_span(frame, 1)));
   if (frame.beams && frame.beams->section.empty()) out.push_back("beams have no section");
   if (frame.braces && frame.braces->area.empty()) out.push_back("braces have no area");
   if (frame.slab.kind == SlabKind::links && frame.slab.section.name.empty())

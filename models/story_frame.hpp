@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "models/description.hpp"
+#include "models/dof_names.hpp"
 
 namespace nsframe {
 
@@ -22,6 +23,13 @@ enum class BarKind { truss, cable };
 
 ElementKind element_kind(BeamKind kind);
 ElementKind element_kind(BarKind kind);
+
+// Directions that the ends of a beam release, local axes.
+struct EndReleases {
+  DofSet i, j;
+};
+// In basic directions; ux and rx are the same at both ends.
+Releases basic_releases(const EndReleases& ends);
 
 // Columns or beams. Lists have one entry a story, from the lowest.
 struct FrameMembers {
@@ -32,6 +40,8 @@ struct FrameMembers {
   Integration integration;
   MemberMass mass;
   Geometry geometry = Geometry::linear;
+  std::optional<EndReleases> releases;
+  std::array<double, 2> rigid_ends{0, 0};  // lengths of rigid zones at the first and the second node [m]
 };
 
 struct FrameBeams : FrameMembers {

@@ -42,6 +42,7 @@ Assembler::Assembler(const Model& model, int threads) : model_(model), threads_(
         for (const int j : placed.dofs) pattern.emplace_back(i, j, 0.0);
       }
       if (const auto* beams = dynamic_cast<const FiberBeams*>(&group)) fibers_ += beams->fibers(e);
+      if (group.rate_dependent()) rates_.push_back(nonlinear_.size());
       (group.linear() ? linear_ : nonlinear_).push_back(std::move(placed));
     }
   }
@@ -198,6 +199,33 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
     if (with_tangent) scatter(placed, tangents_[i], tangent_.valuePtr());
   }
   force.noalias() += model_.dofs.transformation_transposed * full_force_;
+}
+
+RateEnergy Assembler::rate_force(const VectorX& committed, VectorX& trial, const StepSpan& step, VectorX& force) {
+  rate_values_.assign(static_cast<std::size_t>(tangent_.nonZeros()), 0.0);
+  full_force_.setZero(model_.dofs.full);
+  RateEnergy sum;
+  Vector12 at_nodes;
+  Matrix12 tangent;
+  for (const std::size_t i : rates_) {
+    const Placed& placed = nonlinear_[i];
+    const Vector12 u = gather(*placed.group, placed.element, full_displacement_);
+    const RateEnergy energy = placed.group->respond_rate(placed.element, u, committed.data() + placed.history_begin,
+                                                         trial.data() + placed.history_begin, step, at_nodes, tangent);
+    sum.dissipated += energy.dissipated;
+    sum.stored += energy.stored;
+    for (int end = 0; end < 2; ++end) {
+      const int node = placed.group->nodes(placed.element)[static_cast<std::size_t>(end)];
+      if (node >= 0) full_force_.segment<6>(6 * node) += at_nodes.segment<6>(6 * end);
+    }
+    scatter(placed, tangent, rate_values_.data());
+  }
+  force.noalias() = model_.dofs.transformation_transposed * full_force_;
+  return sum;
+}
+
+void Assembler::add_rate_tangent(double factor, SparseMatrix& stiffness) const {
+  for (std::size_t k = 0; k < rate_values_.size(); ++k) stiffness.valuePtr()[k] += factor * rate_values_[k];
 }
 
 std::string Assembler::worst_element(const VectorX& residual) const {

@@ -41,6 +41,14 @@ class Assembler {
   // That was the last internal_force() of all.
   bool tangent_is_current() const { return tangent_is_current_; }
 
+  // Some element's force depends on the rate of deformation. Then, after internal_force(): what the step that leads from
+  // the committed history to its displacement adds, at the theta point of the step [N, N m]; writes its part of the trial
+  // history, and keeps the derivative by the displacement.
+  bool rate_dependent() const { return !rates_.empty(); }
+  RateEnergy rate_force(const VectorX& committed_history, VectorX& trial_history, const StepSpan& step, VectorX& force);
+  // Adds the derivative to a matrix of the pattern of tangent().
+  void add_rate_tangent(double factor, SparseMatrix& stiffness) const;
+
   // The element whose nodes carry the largest part of `residual` (free DOFs), for messages.
   std::string worst_element(const VectorX& residual) const;
 
@@ -63,8 +71,10 @@ class Assembler {
   long fibers_ = 0;
   std::vector<BlockRange> blocks_;
   std::vector<Placed> linear_, nonlinear_;
+  std::vector<std::size_t> rates_;   // of nonlinear_, those with rate-dependent forces
   SparseMatrix tangent_;
   bool tangent_is_current_ = true;
+  std::vector<double> rate_values_;
   std::vector<double> linear_values_;
   BlockOperator linear_operator_;
   std::vector<Vector12> forces_;

@@ -59,6 +59,9 @@ void MoreauJean::evaluate(System& system, const State& committed, State& trial, 
     system.damping.form_tangent(K, committed.damping_stiffness, Eigen::Map<const VectorX>(K.valuePtr(), K.nonZeros()));
   }
   system.damping.add_force(system.assembler.blocks(), h, mid_velocity_, free_residual_);
+  if (!system.assembler.rate_dependent()) return;
+  rate_energy_ = system.assembler.rate_force(committed.history, trial.history, {h, theta}, rate_force_);
+  free_residual_ += h * rate_force_;
 }
 
 void MoreauJean::update_velocity(const System& system, const VectorX& change, State& trial, StepResult& result) {
@@ -147,7 +150,12 @@ class MoreauJean::Step : public NonlinearStep {
     if (which == Tangent::current && !system_.assembler.tangent_is_current()) evaluate(true);
     factored_ = true;
     const bool initial = which == Tangent::initial && system_.initial_stiffness.nonZeros() == system_.assembler.tangent().nonZeros();
-    scheme_.matrix_.factor(system_, initial ? system_.initial_stiffness : system_.assembler.tangent(), scheme_.options_.theta * h_);
+    const SparseMatrix& K = initial ? system_.initial_stiffness : system_.assembler.tangent();
+    const double theta = scheme_.options_.theta;
+    if (!system_.assembler.rate_dependent()) return scheme_.matrix_.factor(system_, K, theta * h_);
+    SparseMatrix moving = K;  // dR/dv = h theta h dF/dq of the forces that R holds at the theta point (theory.md, 131)
+    system_.assembler.add_rate_tangent(1 / theta, moving);
+    scheme_.matrix_.factor(system_, moving, theta * h_);
   }
   void solve(const VectorX& rhs, VectorX& x) override {
     scheme_.matrix_.solve(rhs, x);
@@ -239,6 +247,11 @@ void MoreauJean::report(const System& system, const State& committed, State& tri
     result.impacts.push_back({trial.time, pair, -before, p, before, after});
   }
   result.numerical *= options_.theta - 0.5;
+  if (system.assembler.rate_dependent()) {
+    result.damping += rate_energy_.dissipated;
+    result.strain += rate_energy_.stored;
+    result.numerical += h * rate_force_.dot(mid_velocity_) - rate_energy_.dissipated - rate_energy_.stored;
+  }
   // q+ = q + h v + theta h (v+ - v): as if the velocity jumped here
   if (contact_change_.size() > 0) result.jumps.push_back({committed.time + (1 - options_.theta) * h, contact_change_});
 }

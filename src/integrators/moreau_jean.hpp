@@ -47,6 +47,8 @@ class MoreauJean : public Scheme {
   VectorX impulse_;                   // of the active pairs
   VectorX load_, free_residual_, residual_, mid_velocity_, momentum_change_;
   Extrapolation departure_;           // of P(q+) - P(q) - K (q+ - q) with the factored K, step by step [N]
+  VectorX rate_force_;                // of rate-dependent elements, at the theta point
+  RateEnergy rate_energy_;            // of the step
   VectorX contact_change_;            // of the velocity, by the impulses; empty without
 };
 

@@ -24,6 +24,7 @@ const Vector12& EndForces::evaluate(const Model& model, std::size_t group, int e
   elements.start_step(element, committed, trial_.data());
   const Vector12 displacement = element_displacement(elements, element, full_displacement);
   elements.respond(element, displacement, committed, trial_.data(), force_, nullptr);
+  if (elements.rate_dependent()) force_ += elements.rate_force(element, displacement, committed);
   const ElementPose pose = elements.pose(element, displacement, committed);
   for (const int end : {0, 1}) {
     const Vector3 force = force_.segment<3>(6 * end), moment = force_.segment<3>(6 * end + 3);

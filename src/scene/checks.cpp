@@ -42,7 +42,7 @@ void check(TableReader& table, const MemberMass& mass) {
   if (!mass.any() && (mass.consistent || mass.rotary_inertia)) table.error("per_length", "a mass needs per_length or density");
 }
 
-void check(TableReader& table, const ReleaseTable& releases) {
+void check(TableReader& table, const EndReleases& releases) {
   for (const auto& [key, end] : {std::pair{"i", releases.i}, {"j", releases.j}})
     if (end.dofs[1] || end.dofs[2]) table.error(key, "an end of a beam can release ux, rx, ry and rz, not a shear force");
 }
@@ -54,7 +54,20 @@ void check(TableReader& table, const LoadTable& load) {
 
 void check(TableReader& table, const BarTable& bar) { check_two_nodes(table, bar.nodes); }
 
-void check(TableReader& table, const LinkTable& link) { check_two_nodes(table, link.nodes); }
+void check(TableReader& table, const LinkTable& link) {
+  check_two_nodes(table, link.nodes);
+  if (!link.p_delta) return;
+  const auto& [y_i, y_j, z_i, z_j] = *link.p_delta;
+  if (y_i + y_j > 1 + 1e-12 || z_i + z_j > 1 + 1e-12)
+    table.error("p_delta", "the ends take at most the whole moment: parts of one axis add up to 1 or less");
+}
+
+void check(TableReader& table, const InfillTable& infill) {
+  check_two_nodes(table, infill.nodes);
+  if (infill.fm && infill.ultimate_strain && !(*infill.ultimate_strain > 2 * *infill.fm / infill.E))
+    table.error("ultimate_strain", "ultimate_strain must lie beyond that of the strength, 2 fm/E");
+  if (!infill.fm && infill.ultimate_strain) table.error("ultimate_strain", "ultimate_strain belongs to a strength fm");
+}
 
 void check(TableReader& table, const SpringTable& spring) {
   if (spring.nodes.size() != 1 && spring.nodes.size() != 2)

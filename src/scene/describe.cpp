@@ -76,6 +76,11 @@ void describe_model(Scene& scene, Diagnostics& diagnostics) {
   ModelDescription& model = scene.model;
   model = {};
   for (const MaterialTable& m : scene.tables.materials) model.materials.push_back({m.name, m.at, m.law});
+  for (const StructureTable& structure : scene.tables.structures) {
+    if (const auto* s = std::get_if<ExplicitStructure>(&structure)) {
+      for (MaterialDescription& own : own_materials(*s)) model.materials.push_back(std::move(own));
+    }
+  }
   // build_model() finds the same errors again and reports them
   Diagnostics unreported;
   const Materials materials = resolve_materials(model.materials, unreported);

@@ -17,6 +17,8 @@ void describe_model(Scene& scene, Diagnostics& diagnostics);
 SectionDescription describe(const SectionTable& section, const Materials& materials);
 StructureDescription describe(const ExplicitStructure& structure);
 StructureDescription describe(const StoryFrameTable& frame);
+// Laws of its own that the structure's elements name: of struts.
+std::vector<MaterialDescription> own_materials(const ExplicitStructure& structure);
 DampingDescription describe(const DampingTable& damping);
 ContactDescription describe(const ContactTable& contact);
 

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 
+#include "elements/infill.hpp"
 #include "scene/describe.hpp"
 
 namespace nsframe {
@@ -15,15 +17,7 @@ Reference at_or_empty(const std::vector<Reference>& nodes, std::size_t i) {
   return i < nodes.size() ? nodes[i] : Reference{};
 }
 
-// Basic directions of the releases; ux and rx are the same at both ends.
-Releases describe(const ReleaseTable& table) {
-  Releases out;
-  out.basic = {table.i.dofs[0] || table.j.dofs[0], table.i.dofs[5], table.j.dofs[5],
-               table.i.dofs[4],                    table.j.dofs[4], table.i.dofs[3] || table.j.dofs[3]};
-  return out;
-}
-
-ReleaseTable release_table(const Releases& releases) {
+EndReleases end_releases(const Releases& releases) {
   const auto& r = releases.basic;
   return {{{r[0], false, false, r[5], r[3], r[1]}}, {{false, false, false, false, r[4], r[2]}}};
 }
@@ -58,7 +52,7 @@ ElementDescription describe(const BeamTable& beam, const ExplicitStructure& stru
   out.sections = beam.sections;
   if (out.kind != ElementKind::elastic_beam) out.integration = structure.integration;
   if (beam.integration) out.integration = *beam.integration;
-  if (beam.releases) out.releases = describe(*beam.releases);
+  if (beam.releases) out.releases = basic_releases(*beam.releases);
   out.mass = beam.mass.value_or(structure.member_mass);
   out.points = beam.points.value_or(structure.points);
   out.geometry = beam.geometry.value_or(structure.geometry);
@@ -108,6 +102,31 @@ SpringDescription describe(const LinkTable& link) {
   SpringDescription out = describe_spring(link);
   if (link.in_plane) out.in_plane = vector3(*link.in_plane);
   out.shear_distance = Vector2(link.shear_distance[0], link.shear_distance[1]);
+  out.p_delta = link.p_delta;
+  return out;
+}
+
+// The material of a strut: no other can have a name with a dot.
+std::string strut_material(const InfillTable& infill, const ExplicitStructure& structure) {
+  return structure.name + "." + infill.id.name;
+}
+
+ElementDescription describe(const InfillTable& infill, const ExplicitStructure& structure) {
+  ElementDescription out;
+  out.id = infill.id.name;
+  out.at = infill.id.at;
+  out.kind = ElementKind::truss;
+  out.node_i = at_or_empty(infill.nodes, 0);
+  out.node_j = at_or_empty(infill.nodes, 1);
+  out.material = {strut_material(infill, structure), infill.id.at};
+  InfillPanel panel{infill.thickness, infill.E, infill.column_EI, infill.height, infill.length, 0};
+  const auto level = [&structure](const Reference& node) {
+    for (const NodeTable& n : structure.nodes)
+      if (n.id.name == node.name) return n.z;
+    return 0.0;  // reported by build_model()
+  };
+  panel.column_height = infill.column_height.value_or(std::abs(level(out.node_j) - level(out.node_i)));
+  out.area = strut_width(panel) * panel.thickness;
   return out;
 }
 
@@ -128,7 +147,7 @@ void describe_constraints(const ExplicitStructure& structure, StructureDescripti
   tie_slabs(SlabKind::rigid, ConstraintKind::rigid_body);
   for (const DiaphragmTable& t : structure.diaphragms) {
     out.constraints.push_back({t.master.at, ConstraintKind::diaphragm, t.master, t.slaves});
-    out.constraints.back().normal = static_cast<int>(t.normal);
+    out.constraints.back().normal = t.normal.vector;
   }
   tie_slabs(SlabKind::diaphragm, ConstraintKind::diaphragm);
   for (const EqualDofTable& t : structure.equal_dof)
@@ -195,6 +214,19 @@ StructureDescription describe(const StoryFrameTable& frame) {
   return out;
 }
 
+std::vector<MaterialDescription> own_materials(const ExplicitStructure& structure) {
+  std::vector<MaterialDescription> out;
+  for (const InfillTable& infill : structure.infills) {
+    UniaxialLaw law = ENT{infill.E};
+    if (infill.fm) {
+      const double fm = *infill.fm, peak = 2 * fm / infill.E;
+      law = Concrete01{-fm, -peak, -infill.residual * fm, -infill.ultimate_strain.value_or(5 * peak)};
+    }
+    out.push_back({strut_material(infill, structure), infill.id.at, law});
+  }
+  return out;
+}
+
 StructureDescription describe(const ExplicitStructure& structure) {
   StructureDescription out;
   out.name = structure.name;
@@ -206,6 +238,7 @@ StructureDescription describe(const ExplicitStructure& structure) {
   for (const BeamTable& beam : structure.beams) out.elements.push_back(describe(beam, structure));
   for (const BarTable& bar : structure.trusses) out.elements.push_back(describe(bar, BarKind::truss, structure));
   for (const BarTable& bar : structure.cables) out.elements.push_back(describe(bar, BarKind::cable, structure));
+  for (const InfillTable& infill : structure.infills) out.elements.push_back(describe(infill, structure));
   for (const SpringTable& spring : structure.springs) out.springs.push_back(describe(spring));
   for (const LinkTable& link : structure.links) out.springs.push_back(describe(link));
   for (const LoadTable& load : structure.loads) out.loads.push_back(describe(load));
@@ -231,7 +264,7 @@ BeamTable beam_table(const ElementDescription& element) {
   out.points = element.points;
   if (element.integration != Integration{}) out.integration = element.integration;
   if (element.mass != MemberMass{}) out.mass = element.mass;
-  if (element.releases.any()) out.releases = release_table(element.releases);
+  if (element.releases.any()) out.releases = end_releases(element.releases);
   out.geometry = element.geometry;
   if (element.kind == ElementKind::displacement_beam) out.element = BeamKind::displacement;
   if (element.kind == ElementKind::force_beam) out.element = BeamKind::force_based;
@@ -260,6 +293,7 @@ void add_spring(const SpringDescription& spring, ExplicitStructure& out) {
   if (spring.shear_distance) {
     LinkTable& link = out.links.emplace_back(spring_table<LinkTable>(spring));
     if (spring.in_plane) link.in_plane = components(*spring.in_plane);
+    link.p_delta = spring.p_delta;
     link.shear_distance = {spring.shear_distance->x(), spring.shear_distance->y()};
     return;
   }
@@ -292,7 +326,7 @@ ExplicitStructure tables(const StructureDescription& structure) {
   for (const LoadDescription& load : structure.loads) out.loads.push_back(load_table(load));
   for (const ConstraintDescription& c : structure.constraints) {
     if (c.kind == ConstraintKind::rigid_body) out.rigid_links.push_back({c.master, c.slaves});
-    if (c.kind == ConstraintKind::diaphragm) out.diaphragms.push_back({c.master, c.slaves, static_cast<Axis>(c.normal)});
+    if (c.kind == ConstraintKind::diaphragm) out.diaphragms.push_back({c.master, c.slaves, {c.normal}});
     if (c.kind == ConstraintKind::equal_dof) out.equal_dof.push_back({c.master, c.slaves, {c.dofs}});
   }
   for (const SlabDescription& s : structure.slabs)

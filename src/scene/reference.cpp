@@ -73,6 +73,7 @@ constexpr std::string_view title_of(const SupportTable*) { return "a support"; }
 constexpr std::string_view title_of(const MassTable*) { return "a mass"; }
 constexpr std::string_view title_of(const BeamTable*) { return "a beam"; }
 constexpr std::string_view title_of(const BarTable*) { return "a truss or cable"; }
+constexpr std::string_view title_of(const InfillTable*) { return "an infill"; }
 constexpr std::string_view title_of(const SpringTable*) { return "a spring"; }
 constexpr std::string_view title_of(const LinkTable*) { return "a link"; }
 constexpr std::string_view title_of(const StiffnessTable*) { return "stiffness by direction"; }
@@ -91,7 +92,7 @@ constexpr std::string_view title_of(const FrameColumns*) { return "columns"; }
 constexpr std::string_view title_of(const FrameBeams*) { return "beams"; }
 constexpr std::string_view title_of(const Integration*) { return "integration along beams"; }
 constexpr std::string_view title_of(const MemberMass*) { return "mass of beams"; }
-constexpr std::string_view title_of(const ReleaseTable*) { return "releases"; }
+constexpr std::string_view title_of(const EndReleases*) { return "releases"; }
 constexpr std::string_view title_of(const LoadTable*) { return "a load on beams"; }
 constexpr std::string_view title_of(const FrameSlab*) { return "slabs of a story frame"; }
 constexpr std::string_view title_of(const FrameBraces*) { return "braces"; }

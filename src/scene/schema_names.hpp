@@ -24,7 +24,6 @@ constexpr auto names_of(Geometry) {
                              {"p-delta", Geometry::p_delta},
                              {"corotational", Geometry::corotational}}};
 }
-constexpr auto names_of(Axis) { return Names<Axis, 3>{{{"x", Axis::x}, {"y", Axis::y}, {"z", Axis::z}}}; }
 constexpr auto names_of(LoadAxes) {
   return Names<LoadAxes, 2>{{{"global", LoadAxes::global}, {"local", LoadAxes::local}}};
 }

@@ -61,7 +61,7 @@ void visit(Archive& ar, MemberMass& m) {
 constexpr std::string_view scalar_key(const MemberMass*) { return "per_length"; }
 
 template <class Archive>
-void visit(Archive& ar, ReleaseTable& r) {
+void visit(Archive& ar, EndReleases& r) {
   ar(Field{"i", "at the first end: of `ux` (axial), `rx` (torsion), `ry`, `rz`, local axes"}, r.i);
   ar(Field{"j", "at the second end"}, r.j);
 }
@@ -127,6 +127,36 @@ void visit(Archive& ar, BarTable& b) {
 inline constexpr std::string_view bar_row[]{"id", "nodes", "nodes", "material", "area", "pretension"};
 constexpr RowKeys row_keys(const BarTable*) { return bar_row; }
 
+template <class Archive>
+void visit(Archive& ar, InfillTable& i) {
+  ar(required("id", "unique among the structure's elements"), i.id);
+  ar(required("nodes", "opposite corners of the panel"), i.nodes);
+  ar(required("thickness", "of the infill", dimension::length, range::positive), i.thickness);
+  ar(required("E", "modulus of the infill", dimension::stress, range::positive), i.E);
+  ar(required("column_EI", "bending stiffness of one column in the panel's plane", dimension::bending_stiffness, range::positive),
+     i.column_EI);
+  ar(required("height", "clear height of the infill", dimension::length, range::positive), i.height);
+  ar(required("length", "clear length of the infill", dimension::length, range::positive), i.length);
+  ar(Field{.key = "column_height",
+           .text = "between the centrelines of the beams",
+           .dimension = dimension::length,
+           .range = range::positive,
+           .default_text = "the vertical distance of the nodes"},
+     i.column_height);
+  ar(Field{.key = "fm",
+           .text = "strength; the strut then follows Concrete01, reaching it at the strain 2 fm/E",
+           .dimension = dimension::stress,
+           .range = range::positive,
+           .default_text = "elastic in compression (ENT)"},
+     i.fm);
+  ar(Field{"residual", "stress after crushing, as a part of fm", {}, range::unit}, i.residual);
+  ar(Field{.key = "ultimate_strain",
+           .text = "at which the residual stress is reached",
+           .range = range::positive,
+           .default_text = "10 fm/E"},
+     i.ultimate_strain);
+}
+
 template <class Archive, class Table>
 void visit_dofs(Archive& ar, Table& table, std::string_view text, Dimension translation, Dimension rotation) {
   for (std::size_t i = 0; i < 6; ++i)
@@ -171,6 +201,11 @@ void visit(Archive& ar, LinkTable& l) {
   ar(Field{"shear_distance", "place of the springs along local y and z, as parts of the length from the first node", {},
            range::unit},
      l.shear_distance);
+  ar(Field{.key = "p_delta",
+           .text = "parts of the moments N delta at the first and second end about local y, then about z; shear forces balance the rest",
+           .range = range::unit,
+           .default_text = "no P-Delta"},
+     l.p_delta);
 }
 
 template <class Archive>
@@ -185,7 +220,7 @@ template <class Archive>
 void visit(Archive& ar, DiaphragmTable& t) {
   ar(required("master", "node that leads"), t.master);
   ar(required("slaves", "nodes that follow"), t.slaves);
-  ar(Field{"normal", "of its plane, a global axis"}, t.normal);
+  ar(Field{"normal", "of its plane"}, t.normal);
 }
 constexpr RowKeys row_keys(const DiaphragmTable*) { return tie_row; }
 
@@ -261,6 +296,7 @@ void visit(Archive& ar, ExplicitStructure& s) {
   ar(Field{"beams", "beam-columns"}, s.beams);
   ar(Field{"trusses", "bars in tension and compression"}, s.trusses);
   ar(Field{"cables", "bars in tension only"}, s.cables);
+  ar(Field{"infills", "masonry panels as struts in compression only, of the width of FEMA 356 (7-14)"}, s.infills);
   ar(Field{"springs", "springs and dashpots of no length"}, s.springs);
   ar(Field{"links", "springs and dashpots between nodes apart"}, s.links);
   ar(Field{"loads", "static loads on beams"}, s.loads);
@@ -283,6 +319,10 @@ void visit_members(Archive& ar, FrameMembers& m) {
   ar(Field{"integration", "of fiber beams"}, m.integration);
   ar(Field{"mass", "the members' own"}, m.mass);
   ar(Field{"geometry", geometry_text}, m.geometry);
+  ar(Field{"releases", "moments, torsion or axial force that an end doesn't carry"}, m.releases);
+  ar(Field{"rigid_ends", "lengths of rigid zones along the member, at its first node (feet of columns) and its second",
+           dimension::length, range::non_negative},
+     m.rigid_ends);
 }
 template <class Archive>
 void visit(Archive& ar, FrameBeams& m) {

@@ -21,11 +21,6 @@ struct Direction {
   Vector3 vector = Vector3::UnitX();
 };
 
-// Some of the six DOFs of a node: "fixed", "pinned", or a list of names.
-struct DofSet {
-  std::array<bool, 6> dofs{};
-};
-
 enum class Dof { ux, uy, uz, rx, ry, rz };
 
 // --- materials and sections
@@ -62,11 +57,6 @@ struct MassTable {
   std::vector<double> inertia;  // [kg m2], none or three
 };
 
-// Directions that an end of a beam releases, local axes.
-struct ReleaseTable {
-  DofSet i, j;
-};
-
 struct BeamTable {
   Reference id;
   std::vector<Reference> nodes;
@@ -76,7 +66,7 @@ struct BeamTable {
   std::optional<int> points;
   std::optional<Integration> integration;
   std::optional<MemberMass> mass;
-  std::optional<ReleaseTable> releases;
+  std::optional<EndReleases> releases;
   std::optional<Geometry> geometry;
   std::optional<std::array<double, 3>> orientation;
   std::optional<Vector3> offset_i, offset_j;  // [m]
@@ -100,6 +90,20 @@ struct BarTable {  // truss or cable
   double area = 0;        // [m2]
   double pretension = 0;  // [N]
   std::optional<Geometry> geometry;
+};
+
+// A strut in compression only (elements/infill.hpp).
+struct InfillTable {
+  Reference id;
+  std::vector<Reference> nodes;
+  double thickness = 0;                  // [m]
+  double E = 0;                          // [Pa]
+  double column_EI = 0;                  // [N m2]
+  double height = 0, length = 0;         // [m] clear
+  std::optional<double> column_height;   // [m] default: between the nodes
+  std::optional<double> fm;              // [Pa] default: elastic
+  double residual = 0.2;                 // of fm
+  std::optional<double> ultimate_strain; // default: five times that of fm
 };
 
 // Six values by direction: stiffnesses, dashpots, laws.
@@ -130,6 +134,7 @@ struct LinkTable {
   LawTable law;
   std::optional<std::array<double, 3>> in_plane;
   std::array<double, 2> shear_distance{0.5, 0.5};
+  std::optional<std::array<double, 4>> p_delta;
 };
 
 struct TieTable {  // rigid link
@@ -137,12 +142,10 @@ struct TieTable {  // rigid link
   std::vector<Reference> slaves;
 };
 
-enum class Axis { x, y, z };
-
 struct DiaphragmTable {
   Reference master;
   std::vector<Reference> slaves;
-  Axis normal = Axis::z;
+  Direction normal{Vector3::UnitZ()};
 };
 
 struct EqualDofTable {
@@ -203,6 +206,7 @@ struct ExplicitStructure {
   std::vector<MassTable> masses;
   std::vector<BeamTable> beams;
   std::vector<BarTable> trusses, cables;
+  std::vector<InfillTable> infills;
   std::vector<SpringTable> springs;
   std::vector<LinkTable> links;
   std::vector<LoadTable> loads;

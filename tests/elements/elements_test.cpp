@@ -88,14 +88,40 @@ std::vector<Case> all_elements() {
   properties.law[1] = Steel01{3e3, 2e6, 0.02};
   properties.law[2] = Series{{inner(Steel01{2e3, 1e6, 0.05}), inner(Elastic{3e6})}};
   properties.law[4] = MinMax{inner(Elastic{5e4}), -0.1, 0.1};
-  auto spring = std::make_unique<Springs>(false);
+  auto spring = std::make_unique<Springs>(Springs::Kind{false});
   spring->add(nodes, "s", properties);
   cases.push_back({"spring", std::move(spring), false});
   properties.length = frame.length;
   properties.shear_distance = Vector2(0.3, 0.8);
-  auto link = std::make_unique<Springs>(false);
+  auto link = std::make_unique<Springs>(Springs::Kind{false});
   link->add(nodes, "l", properties);
   cases.push_back({"link", std::move(link)});
+  properties.p_delta = {0.1, 0.3, 0.25, 0.15};
+  auto leaning = std::make_unique<Springs>(Springs::Kind{false, false, true});
+  leaning->add(nodes, "p", properties);
+  cases.push_back({"link, P-Delta", std::move(leaning), false});
+  for (const Geometry geometry : {Geometry::linear, Geometry::p_delta}) {
+    const bool small = geometry == Geometry::linear;
+    FiberMember member = fiber_member(frame);
+    const FiberSection& plain = *member.sections[0];
+    std::vector<Fiber> fibers;
+    for (int i = 0; i < plain.fibers; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      fibers.push_back({plain.y[at], plain.z[at], plain.area[at], steel});
+    }
+    const auto section = [&fibers](const AddedLaws& laws) { return std::make_shared<FiberSection>(fibers, 1e5, laws); };
+    const UniaxialLaw shear = Steel01{2e3, 4e6, 0.05}, twist = Steel01{300, 1e5, 0.03};
+    for (auto& s : member.sections) s = section(AddedLaws{shear, shear, twist});
+    member.sections[1] = section(AddedLaws{std::nullopt, shear, std::nullopt});  // a section rigid in shear along y
+    member.load = some_load();
+    auto aggregated = std::make_unique<AggregatedForceBeams>(geometry);
+    aggregated->add(nodes, "af", member);
+    cases.push_back({small ? "force-based with laws of shear and torsion" : "the same, P-Delta", std::move(aggregated), small, true});
+    for (auto& s : member.sections) s = section(AddedLaws{std::nullopt, std::nullopt, twist});
+    auto twisted = std::make_unique<DisplacementBeams>(geometry);
+    twisted->add(nodes, "td", member);
+    cases.push_back({small ? "displacement-based with a law of torsion" : "that, P-Delta", std::move(twisted), small, true});
+  }
   return cases;
 }
 

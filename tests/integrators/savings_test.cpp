@@ -37,13 +37,13 @@ TEST_CASE("forces and histories are the same bits with and without tangents, whi
 }
 
 TEST_CASE("steps that their first guess solves end where steps with iterations do") {
-  AnalysisOptions o = options(1, 1e-3, 1);
+  AnalysisOptions o = options(1, 2e-4, 0.4);
   const Run guessed = run(steel_pair(3), o);
-  o.newton_tolerance = 1e-13;  // below what a guess reaches
-  o.max_newton = 60;
+  o.newton_tolerance = 1e-11;  // few guesses reach it
   const Run iterated = run(steel_pair(3), o);
   CHECK(guessed.summary.savings.guessed_steps > 300);
-  CHECK(iterated.summary.savings.guessed_steps < 10);
+  REQUIRE(iterated.summary.completed);
+  CHECK(iterated.summary.savings.guessed_steps < guessed.summary.savings.guessed_steps / 4);
   REQUIRE(guessed.summary.impacts.size() == iterated.summary.impacts.size());
   REQUIRE_FALSE(guessed.summary.impacts.empty());
   const double scale = iterated.states.back().displacement.norm();

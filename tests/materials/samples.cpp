@@ -87,6 +87,8 @@ const std::vector<Sample>& samples() {
       {"InitStress", InitStress{inner(steel), -0.3 * fy}, yield, fy, 22, power},
       {"Fatigue", Fatigue{inner(steel)}, yield, fy, 22, power},
       {"nested", MinMax{inner(Parallel{{inner(InitStrain{inner(steel), 0.1 * yield}), inner(Series{{inner(Steel01{fy, E, b}), inner(Elastic{E})}})}}), -19 * yield}, yield, 40 * fy, 22, series},
+      {"Viscous, at rest", Viscous{1e6, 0.4}},
+      {"ViscousDamper, at rest", ViscousDamper{E, 1e6, 0.4}},
   };
   return all;
 }

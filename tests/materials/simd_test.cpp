@@ -53,7 +53,8 @@ Difference largest_difference(const Sample& sample) {
     }
     points.committed = points.scalar;
   }
-  return {difference.stress / peak, difference.tangent / stiffest};
+  // both are zero in laws at rest
+  return {peak > 0 ? difference.stress / peak : difference.stress, stiffest > 0 ? difference.tangent / stiffest : difference.tangent};
 }
 
 }  // namespace

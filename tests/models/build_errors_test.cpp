@@ -272,7 +272,9 @@ TEST_CASE("an elastic member needs a section centred on its principal axes, a fi
 TEST_CASE("a section without fibers, or with impossible constants, is an error, and members of it raise no others") {
   for (const ElementKind kind : {ElementKind::displacement_beam, ElementKind::force_beam, ElementKind::elastic_beam}) {
     ModelDescription d = column();
-    d.sections[0] = {"c", at(31), FiberSectionDescription{{}, 1e4}, {}};
+    FiberSectionDescription empty;
+    empty.torsion_stiffness = 1e4;
+    d.sections[0] = {"c", at(31), empty, {}};
     only(d).elements[0].kind = kind;
     CHECK(error_of(d) == "s.toml:31:3: error: section 'c' has no fibers");
   }

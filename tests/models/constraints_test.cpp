@@ -99,7 +99,7 @@ TEST_CASE("a diaphragm normal to any axis moves as a rigid body in its plane") {
   for (int normal = 0; normal < 3; ++normal) {
     CAPTURE(normal);
     ModelDescription d = body(ConstraintKind::diaphragm, {arm});
-    d.structures[0].constraints[0].normal = normal;
+    d.structures[0].constraints[0].normal = Vector3::Unit(normal);
     d.structures[0].masses.push_back(mass("1", 1, Vector3::Ones()));
     const Model model = build(d);
     REQUIRE(model.dofs.size() == 9);
@@ -109,6 +109,28 @@ TEST_CASE("a diaphragm normal to any axis moves as a rigid body in its plane") {
     Vector6 expected;
     expected << in_plane.cwiseProduct(q.head<3>() + turn.cross(arm)), turn;
     CHECK((model.dofs.expand(q).segment<6>(full_dof(model, "a.1", 0)) - expected).norm() < 8 * epsilon);
+  }
+}
+
+TEST_CASE("a diaphragm with any normal moves as a rigid body in its plane, and is free out of it") {
+  const Vector3 arm(3, 2, -1.5);
+  for (const Vector3& normal : {Vector3(0.3, -0.5, 2), Vector3(1, 0.2, 0.4), Vector3(-0.3, 1, 0.99)}) {
+    ModelDescription d = body(ConstraintKind::diaphragm, {arm});
+    d.structures[0].constraints[0].normal = normal;
+    d.structures[0].masses.push_back(mass("1", 1, Vector3::Ones()));
+    const Model model = build(d);
+    REQUIRE(model.dofs.size() == 9);
+    VectorX q(9);
+    q << 0.1, 0.2, 0.3, 0.01, 0.02, 0.05, -0.4, 0.03, -0.07;
+    const VectorX u = model.dofs.expand(q);
+    const Vector6 master = u.segment<6>(full_dof(model, "a.m", 0)), slave = u.segment<6>(full_dof(model, "a.1", 0));
+    const Vector3 n = normal.normalized();
+    const Matrix3 in_plane = Matrix3::Identity() - n * n.transpose();
+    const Vector3 spin = n.dot(master.tail<3>()) * n;
+    CHECK((in_plane * (slave.head<3>() - master.head<3>() - spin.cross(arm))).norm() < 16 * epsilon);
+    CHECK(std::abs(n.dot(slave.tail<3>() - master.tail<3>())) < 16 * epsilon);
+    // three directions of its own: the motion along n and two rotations
+    CHECK(n.dot(slave.head<3>() - master.head<3>()) != doctest::Approx(0));
   }
 }
 

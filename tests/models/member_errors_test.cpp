@@ -45,8 +45,11 @@ TEST_CASE("integration, sections, loads and mass that a member can't have are er
   CHECK(error_of(d) == "s.toml:5:3: error: element 'a.e1': 4 (hinge_i + hinge_j) = 8 m is more than the length, 2.5 m");
   e.integration = {};
   std::get<ElasticSection>(d.sections[0].kind).Ay = 1e-3;
-  CHECK(error_of(d) ==
-        "s.toml:5:3: error: element 'a.e1': section 'c' has shear areas, but only elastic beams deform in shear");
+  CHECK(error_of(d) == "no error");
+  e.kind = ElementKind::displacement_beam;
+  CHECK(error_of(d) == "s.toml:5:3: error: element 'a.e1': section 'c' deforms in shear, which elastic and force-based beams do, "
+                       "and displacement-based ones don't");
+  e.kind = ElementKind::force_beam;
   std::get<ElasticSection>(d.sections[0].kind).Ay = -1;
   CHECK(error_of(d).starts_with("error: section 'c': Ay must not be negative"));
   d = column();

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "integrators/static_analysis.hpp"
+#include "tests/support/reference_data.hpp"
 #include "tests/support/small_models.hpp"
 
 using namespace nsframe;
@@ -100,6 +101,22 @@ TEST_CASE("a spring to the ground acts along its own axes") {
   const Vector6 u = displacement(d, "a.1", (Vector6() << 4e3 * x + 2e3 * y + 3e3 * z, 5e2 * z).finished());
   CHECK((u.head<3>() - 1e-3 * (x + y + z)).norm() < 1e-12);
   CHECK((u.tail<3>() - 5e2 / 7e5 * z).norm() < 1e-12);
+}
+
+TEST_CASE("P-Delta moments of a link are those of OpenSees' twoNodeLink for all ratios") {
+  for (const auto& row : read_reference("pdelta_link")) {
+    ModelDescription d = two_nodes();
+    StructureDescription& s = d.structures[0];
+    s.nodes = {node("1", 0, 0, 0), node("2", 0, 0, 2.4)};
+    SpringDescription link = ground_spring("l", "1", (Vector6() << 8e6, 90e3, 60e3, 40e3, 70e3, 110e3).finished());
+    link.node_j = Reference{"2", {}};
+    link.shear_distance = Vector2(0.5, 0.5);
+    link.in_plane = Vector3::UnitX();
+    link.p_delta = {row[0], row[1], row[2], row[3]};
+    s.springs = {link};
+    const Vector6 u = displacement(d, "a.2", (Vector6() << 3e3, 2e3, -30e3, 400, -300, 200).finished());
+    for (int i = 0; i < 6; ++i) CHECK(std::abs(u[i] - row[static_cast<std::size_t>(4 + i)]) < 1e-9 * 0.1);
+  }
 }
 
 TEST_CASE("springs without axes and links of no length are errors") {

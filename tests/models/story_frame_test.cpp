@@ -244,3 +244,25 @@ TEST_CASE("beams of a frame carry their line load downwards, story by story; end
   frame.beams->load = {1, 2, 3};
   CHECK(faults(frame).front() == "beams.load has 3 values, must have one, or one for each of the 2 stories");
 }
+
+TEST_CASE("releases and rigid zones reach the members of a frame, along each member") {
+  StoryFrame frame = two_story();
+  frame.columns.rigid_ends = {0.1, 0.3};
+  frame.beams->rigid_ends = {0.2, 0.15};
+  frame.beams->releases.emplace().j.dofs[5] = true;
+  const StructureDescription s = expand(frame);
+  const auto position = positions(s);
+  for (const ElementDescription& e : s.elements) {
+    const bool beam = e.section.name == "beam", column = e.section.name == "HEA100";
+    const Vector3 along = (position.at(e.node_j.name) - position.at(e.node_i.name)).normalized();
+    const double at_i = beam ? 0.2 : column ? 0.1 : 0, at_j = beam ? 0.15 : column ? 0.3 : 0;
+    CHECK((e.offset[0] - at_i * along).norm() < 1e-15);
+    CHECK((e.offset[1] + at_j * along).norm() < 1e-15);
+    CHECK(e.releases.basic == std::array<bool, 6>{false, false, beam, false, false, false});
+  }
+  frame.beams->rigid_ends = {1.2, 1.0};  // of 2.2 m
+  CHECK(faults(frame) == std::vector<std::string>{"beams.rigid_ends leave nothing of a member of 2.2 m"});
+  frame.beams->rigid_ends = {0, 0};
+  frame.columns.rigid_ends = {2, 0.5};
+  CHECK(faults(frame) == std::vector<std::string>{"columns.rigid_ends leave nothing of a member of 2.5 m"});
+}

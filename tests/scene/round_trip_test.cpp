@@ -236,10 +236,14 @@ springs = [
 ]
 links = [
   { id = "l1", nodes = [3, 4], stiffness = { ux = 1, uy = 2 }, law = { rz = "linear" }, shear_distance = [0.2, 0.7] },
-  { id = "l2", nodes = ["top", 4], damping = { ux = 3 }, in_plane = [0, 0, 1] },
+  { id = "l2", nodes = ["top", 4], damping = { ux = 3 }, in_plane = [0, 0, 1], p_delta = [0.1, 0.2, 0.5, 0.5] },
 ]
 rigid_links = [["top", 5], { master = 3, slaves = [4] }]
-diaphragms = [[3, 4, 5], { master = "top", slaves = [3], normal = "x" }]
+diaphragms = [[3, 4, 5], { master = "top", slaves = [3], normal = "x" }, { master = 5, slaves = [4], normal = [1, 2, 3] }]
+infills = [
+  { id = "w1", nodes = [1, 4], thickness = "20 cm", E = "5 GPa", column_EI = "30 MN m2", height = 2.5, length = 4 },
+  { id = "w2", nodes = [2, 3], thickness = "20 cm", E = "5 GPa", column_EI = "30 MN m2", height = 2.5, length = 4, column_height = 3, fm = "6 MPa", residual = 0.1, ultimate_strain = 0.01 },
+]
 equal_dof = [["top", 3, ["ux", "uy"]], [4, 5, ["rx"]]]
 slabs = [
   { id = 1, corners = ["top", 3, 4, 5], center = 6, kind = "diaphragm", thickness = "20 cm" },
@@ -256,7 +260,7 @@ height = ["4 m", 3, 3]
 plan = [["3 m", "4 m"], 5]
 bays = [1, 2]
 origin = [20, 0, 0]
-columns = { section = ["shape", "shape", "fibers"], element = "force-based", points = 4, geometry = "p-delta", depth = "y", end_section = "shape" }
+columns = { section = ["shape", "shape", "fibers"], element = "force-based", points = 4, geometry = "p-delta", depth = "y", end_section = "shape", releases = { j = ["rz"] }, rigid_ends = [0, "20 cm"] }
 beams = { section = "constants", load = ["10 kN/m", 0, 2], mass = { density = 2500, consistent = true } }
 slab = { kind = "diaphragm" }
 braces = { planes = ["-x", "+y"], kind = "cable", material = "linear", area = [3e-4, 2e-4, 1e-4], pretension = "1 kN" }

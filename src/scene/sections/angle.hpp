@@ -110,6 +110,7 @@ inline void describe(const AngleSection& section, const ElasticModulus& modulus,
     fibers.torsion_stiffness =
         section.torsion.stiffness(modulus(section.material), angle_torsion(depth, width, t, root));
   }
+  add_laws(section.torsion.added, fibers);
   out.kind = std::move(fibers);
 }
 

@@ -56,6 +56,7 @@ inline void describe(const ConcreteCircle& section, const ElasticModulus& modulu
         c.torsion.stiffness(modulus(c.core), pi / 2 * (std::pow(outer, 4) - std::pow(inner, 4)));
     out.outline = circle_outline(Vector2::Zero(), outer);
   }
+  add_laws(c.torsion.added, fibers);
   out.kind = std::move(fibers);
 }
 

@@ -67,6 +67,7 @@ inline void describe(const ConcreteRectangle& section, const ElasticModulus& mod
   }
   displace_concrete(all, first_bar, c);
   fibers.torsion_stiffness = c.torsion.stiffness(modulus(c.core), rectangle_torsion(2 * y, 2 * z));
+  add_laws(c.torsion.added, fibers);
   out.kind = std::move(fibers);
   out.outline = rectangle_outline({{-y, y}, {-z, z}});
 }

@@ -68,9 +68,10 @@ struct PatchSection {
   std::vector<FiberTable> fibers;
   std::optional<double> GJ, G, J;  // [N m2], [Pa], [m4]
   bool centred = false;
+  AddedLawKeys added;
 
   static constexpr std::array<std::string_view, 6> chosen_by{"patches", "quads", "rings", "layers", "arcs", "fibers"};
-  static constexpr std::string_view title = "fibers", note = "Either `GJ`, or `G` and `J`.";
+  static constexpr std::string_view title = "fibers", note = "Either `GJ`, or `G` and `J`, or `torsion_law`.";
 };
 
 template <class Archive>
@@ -196,12 +197,14 @@ void visit(Archive& ar, PatchSection& s) {
   ar(Field{"GJ", "torsional stiffness", dimension::bending_stiffness, range::non_negative}, s.GJ);
   ar(Field{"G", "shear modulus, with J in place of GJ", dimension::stress, range::non_negative}, s.G);
   ar(Field{"J", "torsion constant", dimension::fourth_power_of_length, range::non_negative}, s.J);
+  visit_added_laws(ar, s.added);
 }
 
 inline SectionFaults faults(const PatchSection& section) {
   SectionFaults out;
-  if (section.GJ.has_value() == (section.G && section.J) || section.G.has_value() != section.J.has_value())
-    out.push_back({"GJ", "a fiber section needs either GJ, or G and J"});
+  const int torsion = section.GJ.has_value() + (section.G && section.J) + section.added.torsion.has_value();
+  if (torsion != 1 || section.G.has_value() != section.J.has_value())
+    out.push_back({"GJ", "a fiber section needs either GJ, or G and J, or torsion_law"});
   for (const PatchTable& patch : section.patches)
     if (patch.y[0] == patch.y[1] || patch.z[0] == patch.z[1]) out.push_back({"patches", "a patch has no area"});
   return out;
@@ -245,6 +248,7 @@ inline void describe(const PatchSection& section, const ElasticModulus&, Section
     }
     for (Vector2& point : out.outline) point -= centroid;
   }
+  add_laws(section.added, fibers);
   out.kind = std::move(fibers);
 }
 

@@ -56,6 +56,7 @@ inline void describe(const PipeSection& section, const ElasticModulus& modulus, 
     fibers.torsion_stiffness = section.torsion.stiffness(modulus(section.material), 2 * second);
     out.outline = circle_outline(Vector2::Zero(), outer);
   }
+  add_laws(section.torsion.added, fibers);
   out.kind = std::move(fibers);
 }
 

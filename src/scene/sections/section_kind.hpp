@@ -30,10 +30,27 @@ using ElasticModulus = std::function<double(const Reference&)>;
 
 inline constexpr Range fiber_count{1, 1000};
 
+// Laws beside the fibers (FiberSectionDescription).
+struct AddedLawKeys {
+  std::optional<Reference> torsion, shear_y, shear_z;
+};
+template <class Archive>
+void visit_added_laws(Archive& ar, AddedLawKeys& a) {
+  ar(Field{"torsion_law", "material, torsional moment by twist (rad/m), in place of GJ"}, a.torsion);
+  ar(Field{"shear_y_law", "material, shear force along local y by shear strain; of force-based beams"}, a.shear_y);
+  ar(Field{"shear_z_law", "the same along local z"}, a.shear_z);
+}
+inline void add_laws(const AddedLawKeys& keys, FiberSectionDescription& out) {
+  out.torsion = keys.torsion;
+  out.shear_y = keys.shear_y;
+  out.shear_z = keys.shear_z;
+}
+
 // Shear modulus and torsion constant, where a kind knows good defaults for both.
 struct TorsionKeys {
   double poisson = 0.3;
   std::optional<double> G, J;  // [Pa], [m4]
+  AddedLawKeys added = {};
 
   double stiffness(double E, double computed_J) const {
     return G.value_or(E / (2 * (1 + poisson))) * J.value_or(computed_J);
@@ -51,6 +68,7 @@ void visit_torsion(Archive& ar, TorsionKeys& t, std::string_view of_J) {
            .range = range::positive,
            .default_text = of_J},
      t.J);
+  visit_added_laws(ar, t.added);
 }
 
 inline SectionOutline rectangle_outline(const Rectangle& r) {

@@ -133,6 +133,7 @@ inline void describe(const TubeSection& section, const ElasticModulus& modulus, 
         out.outline.emplace_back(sy * (y - radius) + radius * std::cos(at), sz * (z - radius) + radius * std::sin(at));
     }
   }
+  add_laws(section.torsion.added, fibers);
   out.kind = std::move(fibers);
 }
 
