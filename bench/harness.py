@@ -183,6 +183,36 @@ def arguments(parser):
     return parser
 
 
+def peer_arguments(parser):
+    """The options of benches that run OpenSees too."""
+    parser.add_argument("--opensees-python", metavar="P", help="interpreter that has openseespy (default: this one)")
+    parser.add_argument("--no-opensees", action="store_true")
+
+
+def peer_python(options):
+    """The interpreter to run OpenSees by, or None and the reason."""
+    return (None, "not asked for") if options.no_opensees else opensees_python(options.opensees_python)
+
+
+def write_compared(options, name, title, how, peer_how, reason, parts, data):
+    """Writes the tables of a bench that runs OpenSees too: `how` was measured, and `peer_how` in OpenSees.
+
+    `reason`: why there are no rows of OpenSees, if there are none. The rows are in data["cases"].
+    """
+    cases = [case["rows"] if isinstance(case, dict) else case for case in data["cases"].values()]
+    versions = {row["version"] for rows in cases for row in rows if "version" in row}
+    peer = "No rows of OpenSees: %s." % reason if reason else "OpenSees %s: %s." % (", ".join(sorted(versions)), peer_how)
+    intro = "# %s\n\n%s. %s\n%s\n" % (title, data["machine"], how, peer)
+    write(options.results, name, intro + "\n" + "\n".join(parts), data)
+
+
+def run_bench(main):
+    try:
+        main()
+    except BenchError as problem:
+        sys.exit("error: %s" % problem)
+
+
 def progress(text):
     print("  " + text, file=sys.stderr, flush=True)
 

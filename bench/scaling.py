@@ -7,9 +7,9 @@ fiber columns, in nsframe and, where openseespy can be imported, in OpenSees.
 Writes bench/results/scaling.md and .json. Standard library only. What the numbers mean: bench/README.md.
 """
 import argparse
-import sys
 
-from harness import BenchError, Nsframe, arguments, machine, number, opensees_python, progress, step_microseconds, table, write
+from harness import (Nsframe, arguments, machine, number, peer_arguments, peer_python, progress, run_bench, step_microseconds, table,
+                     write_compared)
 from pair import Opensees, run_nsframe
 
 TITLES = {"elastic": "Elastic columns", "displacement-based": "Fiber columns, Steel02, displacement-based"}
@@ -84,14 +84,12 @@ def main():
     parser = arguments(argparse.ArgumentParser(description=__doc__.splitlines()[0]))
     parser.add_argument("--columns", choices=TITLES, nargs="+", default=list(TITLES))
     parser.add_argument("--stories", type=int, choices=STORIES, nargs="+", default=list(STORIES))
-    parser.add_argument("--opensees-python", metavar="P", help="interpreter that has openseespy (default: this one)")
-    parser.add_argument("--no-opensees", action="store_true")
+    peer_arguments(parser)
     options = parser.parse_args()
     nsframe = Nsframe(options.program)
-    python, reason = (None, "not asked for") if options.no_opensees else opensees_python(options.opensees_python)
+    python, reason = peer_python(options)
     opensees = Opensees(python) if python else None
-    host = machine()
-    data = dict(machine=host, opensees=reason or "run", cases={})
+    data = dict(machine=machine(), opensees=reason or "run", cases={})
     parts = []
     for columns in options.columns:
         rows = []
@@ -101,19 +99,10 @@ def main():
                 rows.append(opensees_row(opensees, columns, stories, options.quick))
         data["cases"][columns] = rows
         parts.append(text_of(columns, rows))
-    intro = ("# Cost of a step against size\n\n%s. Least of several runs on one core; dt = 1 ms, El Centro 0.30 g from its start.\n"
-             % host)
-    versions = {row["version"] for rows in data["cases"].values() for row in rows if "version" in row}
-    if opensees:
-        intro += ("OpenSees %s: modalDampingQ of six modes, BandSPD, KrylovNewton, Newmark 1/2, 1/4, penalty 1e8 N/m.\n"
-                  % ", ".join(sorted(versions)))
-    else:
-        intro += "No OpenSees: %s.\n" % reason
-    write(options.results, "scaling", intro + "\n" + "\n".join(parts), data)
+    write_compared(options, "scaling", "Cost of a step against size",
+                   "Least of several runs on one core; dt = 1 ms, El Centro 0.30 g from its start.",
+                   "modalDampingQ of six modes, BandSPD, KrylovNewton, Newmark 1/2, 1/4, penalty 1e8 N/m", reason, parts, data)
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except BenchError as problem:
-        sys.exit("error: %s" % problem)
+    run_bench(main)

@@ -6,10 +6,10 @@
 Writes bench/results/two_story.md and .json. Standard library only. What the numbers mean: bench/README.md.
 """
 import argparse
-import sys
 
 import references
-from harness import BenchError, Nsframe, arguments, machine, number, opensees_python, progress, step_microseconds, table, write
+from harness import (Nsframe, arguments, machine, number, peer_arguments, peer_python, progress, run_bench, step_microseconds, table,
+                     write_compared)
 from pair import CASES, ROOF_NODES, Opensees, largest_difference, run_nsframe
 
 TITLES = {"elastic": "Elastic columns", "displacement-based": "Fiber columns, Steel02, displacement-based",
@@ -93,14 +93,12 @@ def text_of(columns, reference, rows):
 def main():
     parser = arguments(argparse.ArgumentParser(description=__doc__.splitlines()[0]))
     parser.add_argument("--columns", choices=CASES, nargs="+", default=list(CASES))
-    parser.add_argument("--opensees-python", metavar="P", help="interpreter that has openseespy (default: this one)")
-    parser.add_argument("--no-opensees", action="store_true")
+    peer_arguments(parser)
     options = parser.parse_args()
     nsframe = Nsframe(options.program)
-    python, reason = (None, "not asked for") if options.no_opensees else opensees_python(options.opensees_python)
+    python, reason = peer_python(options)
     opensees = Opensees(python) if python else None
-    host = machine()
-    data = dict(machine=host, opensees=reason or "run", cases={})
+    data = dict(machine=machine(), opensees=reason or "run", cases={})
     parts = []
     for columns in options.columns:
         reference = references.read(columns)
@@ -112,18 +110,9 @@ def main():
             rows.append(opensees_row(opensees, columns, reference, setting, duration))
         data["cases"][columns] = dict(reference=reference[0], rows=rows)
         parts.append(text_of(columns, reference, rows))
-    versions = {row["version"] for case in data["cases"].values() for row in case["rows"] if "version" in row}
-    intro = "# Two-story pair: speed and error\n\n%s. Least of several runs on one core.\n" % host
-    if opensees:
-        intro += ("OpenSees %s: modalDampingQ, BandSPD, KrylovNewton, Newmark 1/2, 1/4, test on displacement increments 1e-8.\n"
-                  % ", ".join(sorted(versions)))
-    else:
-        intro += "No rows of OpenSees: %s.\n" % reason
-    write(options.results, "two_story", intro + "\n" + "\n".join(parts), data)
+    write_compared(options, "two_story", "Two-story pair: speed and error", "Least of several runs on one core.",
+                   "modalDampingQ, BandSPD, KrylovNewton, Newmark 1/2, 1/4, test on displacement increments 1e-8", reason, parts, data)
 
 
 if __name__ == "__main__":
-    try:
-        main()
-    except BenchError as problem:
-        sys.exit("error: %s" % problem)
+    run_bench(main)
