@@ -65,7 +65,7 @@ HWY_NOINLINE void add_block(const Law& block_law, const FiberSection& section, c
 }
 
 template <class Law>
-concept Screened = requires(const Law& law) { law.quiet_limit(); };
+concept Screened = requires(const Law& law) { law.quiet_limit(0.0); };
 
 template <class QuietHistory>
 using QuietComponents = std::make_index_sequence<std::is_empty_v<QuietHistory> ? 0 : sizeof(QuietHistory) / sizeof(Lanes)>;

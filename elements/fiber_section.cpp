@@ -41,7 +41,7 @@ SectionResponse virgin_response(const FiberSection& section) {
 
 }  // namespace
 
-FiberSection::FiberSection(const std::vector<Fiber>& all, double gj, AddedLaws laws)
+FiberSection::FiberSection(const std::vector<Fiber>& all, double gj, AddedLaws laws, double screening)
     : torsion_stiffness(laws[2] ? nsframe::initial_tangent(*laws[2]) : gj), added(std::move(laws)), history_size(section_head) {
   std::vector<std::vector<const Fiber*>> by_law;
   for (const Fiber& fiber : all) {
@@ -52,7 +52,7 @@ FiberSection::FiberSection(const std::vector<Fiber>& all, double gj, AddedLaws l
   }
   for (const auto& members : by_law) {
     FiberBlock block{members.front()->law, static_cast<int>(y.size()), 0, static_cast<int>(members.size()), history_size,
-                     nsframe::quiet_limit(members.front()->law)};
+                     nsframe::quiet_limit(members.front()->law, screening)};
     require(nsframe::history_size(block.law) <= max_history, "a law keeps too many history variables");
     block.count = (block.fibers + fiber_padding - 1) / fiber_padding * fiber_padding;
     for (const Fiber* fiber : members) {

@@ -55,7 +55,8 @@ struct FiberSection {
   FiberSection() = default;
   // Fibers with equal laws are gathered into blocks, in the order of their first appearance.
   // `added` of torsion replaces `torsion_stiffness`.
-  FiberSection(const std::vector<Fiber>& fibers, double torsion_stiffness, AddedLaws added = {});
+  // `screening`: relative error of stress up to which a virgin fiber counts as linear; 0: rounding only.
+  FiberSection(const std::vector<Fiber>& fibers, double torsion_stiffness, AddedLaws added = {}, double screening = 0);
 };
 
 // Virgin; quiet (screening.hpp) when the section is screened.

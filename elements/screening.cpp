@@ -7,7 +7,7 @@ namespace nsframe {
 namespace {
 
 template <class Law>
-concept Screened = requires(const Law& law) { law.quiet_limit(); };
+concept Screened = requires(const Law& law) { law.quiet_limit(0.0); };
 
 template <class Law>
 using Quiet = typename Law::template QuietHistory<double>;
@@ -39,10 +39,10 @@ bool can_be_quiet(const FiberSection& section) {
   return std::all_of(section.blocks.begin(), section.blocks.end(), [](const FiberBlock& block) { return block.quiet_limit > 0; });
 }
 
-double quiet_limit(const UniaxialLaw& law) {
+double quiet_limit(const UniaxialLaw& law, double error) {
   return std::visit(
-      [](const auto& l) {
-        if constexpr (Screened<std::decay_t<decltype(l)>>) return l.quiet_limit();
+      [error](const auto& l) {
+        if constexpr (Screened<std::decay_t<decltype(l)>>) return l.quiet_limit(error);
         return 0.0;
       },
       law);

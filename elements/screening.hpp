@@ -1,5 +1,5 @@
 // Exact elastic screening of fiber sections (theory.md, "Quiet sections"). A section is quiet while all its fibers are
-// virgin and where their laws are linear to rounding: it then answers with its virgin tangent, and only what decides how
+// virgin and where their laws are linear to rounding, or to a relative error of stress that the section was given: it then answers with its virgin tangent, and only what decides how
 // a fiber would leave the line later (Steel02: the point of its last reversal) is kept up to date fiber by fiber.
 //
 // History of a section: four doubles of its own, [is quiet, e0, kz, ky], then those of its blocks. While it is quiet the
@@ -17,7 +17,7 @@ inline constexpr int section_head = 4;
 inline bool is_quiet(const double* history) { return history[0] != 0; }
 
 // The law's quiet_limit(), 0 for a law that has none.
-double quiet_limit(const UniaxialLaw& law);
+double quiet_limit(const UniaxialLaw& law, double error);
 
 // True when all laws of the section can be screened.
 bool can_be_quiet(const FiberSection& section);

@@ -32,7 +32,7 @@ struct Elastic {
   bool is_linear() const { return Eneg.value_or(E) == E; }
   template <class T>
   struct QuietHistory {};
-  double quiet_limit() const { return is_linear() ? 1 : 0; }
+  double quiet_limit(double) const { return is_linear() ? 1 : 0; }
   History<double> opened(double strain, const QuietHistory<double>&) const { return {strain}; }
   double initial_tangent() const { return std::max(E, Eneg.value_or(E)); }
   double yield_strain() const { return std::numeric_limits<double>::infinity(); }

@@ -29,7 +29,7 @@ struct ElasticPP {
   History<double> virgin() const { return {0, 0}; }
   template <class T>
   struct QuietHistory {};
-  double quiet_limit() const { return 1; }
+  double quiet_limit(double) const { return 1; }
   History<double> opened(double strain, const QuietHistory<double>&) const { return {strain, 0}; }
   double initial_tangent() const { return E; }
   double yield_strain() const { return std::min(epsyP, -compression_yield()); }

@@ -17,7 +17,8 @@
 // A law whose virgin fibers are linear to rounding at small strains can take part in the screening of fiber sections
 // (elements/screening.hpp). It then also has
 //   QuietHistory<T>         what of its history changes there, at most as many members (all of type T) as History
-//   quiet_limit()           positive, for stays_linear(); 0 where these parameters allow no screening
+//   quiet_limit(error)      for stays_linear() to hold where the stress leaves the line by less than this, relative to
+//                           itself, or by rounding; 0 where these parameters allow no screening
 //   opened(strain, quiet)   the whole history at a strain
 // and a function stays_linear(law, limit, before, strain, quiet) beside respond(): the mask of fibers that are linear at
 // `strain`, having been at the strain `before`; brings `quiet` to the new strain.

@@ -45,12 +45,12 @@ struct Steel02 {
   };
   History<double> virgin() const { return {sigInit / E, sigInit, -fy / E, fy / E, 0, 0, 0}; }
   // Without isotropic hardening, a virgin fiber reverses on the elastic line, which meets the asymptotes at +-fy/E
-  // whatever it has done: R remains R0, and the curve is lost in rounding while |e*|^R / R < 2^-54 / R.
+  // whatever it has done: R remains R0, and the curve leaves the line by |e*|^R / R, lost in rounding below 2^-54 / R.
   template <class T>
   struct QuietHistory {
     T asymptote_strain, reversal_strain;
   };
-  double quiet_limit() const { return a1 == 0 && a3 == 0 ? std::exp2(-54 / R0) : 0; }
+  double quiet_limit(double error) const { return a1 == 0 && a3 == 0 ? std::pow(std::max(error, 0x1p-54), 1 / R0) : 0; }
   History<double> opened(double strain_from_zero, const QuietHistory<double>& quiet) const {
     const double strain = strain_from_zero + sigInit / E;
     return {strain, E * strain, -fy / E, fy / E, quiet.asymptote_strain, quiet.reversal_strain, E * quiet.reversal_strain};

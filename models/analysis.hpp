@@ -18,6 +18,7 @@ struct AnalysisOptions {
   double gamma = 1.5;                  // activation: a pair takes part where g + gamma dt g' < 0; the paper uses 3/2
   double newton_tolerance = 1e-8;      // residual relative to the largest force of the step
   int max_newton = 30;
+  double screening = 1e-10;            // ModelDescription::screening, as scenes give it
   std::vector<std::string> algorithm{"auto"};  // names in the registry (integrators/algorithms.hpp), tried in turn
   int max_halvings = 10;               // of a step whose Newton iterations fail
   ContactSolverKind contact_solver = ContactSolverKind::active_set;

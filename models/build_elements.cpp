@@ -78,7 +78,7 @@ std::optional<UniaxialLaw> added_law(const SectionDescription& section, const Re
   return law->second;
 }
 
-Library::Section resolve(const SectionDescription& section, const Materials& materials,
+Library::Section resolve(const SectionDescription& section, const Materials& materials, double screening,
                          Diagnostics& diagnostics) {
   Library::Section resolved{&section, {}, nullptr, {}};
   if (const auto* elastic = std::get_if<ElasticSection>(&section.kind)) {
@@ -128,7 +128,7 @@ Library::Section resolve(const SectionDescription& section, const Materials& mat
   if (!description.torsion && !(description.torsion_stiffness > 0)) {
     diagnostics.error(section.at, fmt::format("section '{}': the torsion stiffness GJ must be positive", section.name));
   }
-  auto built = std::make_shared<FiberSection>(fibers, description.torsion_stiffness, std::move(added));
+  auto built = std::make_shared<FiberSection>(fibers, description.torsion_stiffness, std::move(added), screening);
   resolved.elastic = elastic_constants(*built);
   if (const ElasticSection& e = resolved.elastic; e.A < 0 || e.Iz < 0 || e.Iy < 0) {
     diagnostics.error(section.at, fmt::format("section '{}': more is displaced than there is", section.name));
@@ -154,7 +154,7 @@ Library build_library(const ModelDescription& description, Diagnostics& diagnost
   Library library;
   library.materials = resolve_materials(description.materials, diagnostics);
   for (const SectionDescription& section : description.sections) {
-    if (!library.sections.emplace(section.name, resolve(section, library.materials, diagnostics)).second) {
+    if (!library.sections.emplace(section.name, resolve(section, library.materials, description.screening, diagnostics)).second) {
       diagnostics.error(section.at, fmt::format("section '{}' is defined twice", section.name));
     }
   }

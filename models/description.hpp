@@ -209,6 +209,7 @@ struct ModelDescription {
   std::vector<ContactDescription> contacts;
   std::vector<MotionDescription> motions;
   GravityDescription gravity;
+  double screening = 0;  // relative error of stress up to which a virgin fiber counts as linear (elements/screening.hpp)
   std::vector<StageDescription> stages;  // static, in their order, after gravity and before the motions
 };
 

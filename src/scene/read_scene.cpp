@@ -87,6 +87,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   note_places(root, scene);
   find_overridden_records(scene);
   describe_model(scene, diagnostics);
+  scene.model.screening = scene.analysis.screening;
   if (diagnostics.empty()) check_output_nodes(scene, diagnostics);
   return scene;
 }

@@ -165,6 +165,11 @@ void visit(Archive& ar, AnalysisOptions& a) {
      a.gamma);
   ar(Field{"newton_tolerance", "residual relative to the largest force of the step", {}, range::positive},
      a.newton_tolerance);
+  ar(Field{"screening",
+           "a section is not evaluated fiber by fiber while virgin fibers leave their elastic line by less, relative to the "
+           "stress; 0: by rounding only",
+           {}, {0, 1e-4}},
+     a.screening);
   ar(Field{"max_newton", "iterations of a step", {}, {1, 1e6}}, a.max_newton);
   ar(Field{"algorithm",
            "tried in turn where one fails: `newton`, `modified`, `initial`, `line-search`, `krylov`, `broyden`; `auto`: "

@@ -13,12 +13,12 @@ namespace {
 
 constexpr double yield = 235e6 / 210e9;  // [-]
 
-FiberSection section_of(const std::vector<UniaxialLaw>& laws) {
+FiberSection section_of(const std::vector<UniaxialLaw>& laws, double screening = 0) {
   std::vector<Fiber> fibers;
   for (int i = 0; i < 45; ++i) {
     fibers.push_back({0.01 * (i % 9 - 4), 0.012 * (i % 5 - 2), 1e-4 * (1 + i % 3), laws[static_cast<std::size_t>(i) % laws.size()]});
   }
-  return FiberSection(fibers, 1e4);
+  return FiberSection(fibers, 1e4, {}, screening);
 }
 
 struct NamedSection {
@@ -112,6 +112,19 @@ TEST_CASE("a section is quiet while its strains are small, and no longer once a 
       CHECK(large.opened == 0);
     } else {
       CHECK(large.opened > 250);
+    }
+  }
+}
+
+TEST_CASE("a section screened to an error of stress stays quiet for longer, and within that error") {
+  const FiberSection exact = sections()[3].section;
+  for (const double error : {1e-12, 1e-10, 1e-6}) {
+    const FiberSection screened = section_of({Steel02{235e6, 210e9, 0.01}}, error);
+    for (unsigned seed = 1; seed < 6; ++seed) {
+      const Comparison a = compare(exact, 0.12, 300, seed), b = compare(screened, 0.12, 300, seed);
+      CHECK(b.quiet > a.quiet);
+      CHECK(b.difference < std::max(2e-12, 20 * error));  // of the tangent: R + 1 times that of the stress
+      CHECK(b.difference > (error > 1e-7 ? 1e-9 : 0));
     }
   }
 }
