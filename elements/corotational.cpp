@@ -5,6 +5,7 @@
 
 #include "base/errors.hpp"
 #include "base/rotation.hpp"
+#include "elements/member_load.hpp"
 
 namespace nsframe {
 
@@ -208,6 +209,26 @@ void CorotationalBeam::to_global(const BeamFrame& frame, const Vector12& displac
   }
   for (int block = 0; block < 12; block += 3) force.segment<3>(block) = m.axes.transpose() * local.segment<3>(block);
   carry_to_nodes(m, force, tangent);
+}
+
+void add_turning_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement,
+                      const double* committed, Vector12& force, Matrix12* tangent) {
+  if (part == 0) return;
+  const Motion m = find_motion(frame, displacement, committed);
+  const Vector12 local = part * support_forces(load, frame.length);
+  Vector12 at_nodes;
+  for (int block = 0; block < 12; block += 3) at_nodes.segment<3>(block) = m.axes.transpose() * local.segment<3>(block);
+  if (!tangent) {
+    carry_to_nodes(m, at_nodes, nullptr);
+  } else {
+    const Rates rates(m);
+    Matrix12 k = Matrix12::Zero();
+    for (int block = 0; block < 12; block += 3) k.middleRows<3>(block) = -skew(local.segment<3>(block)) * rates.axes;
+    k = rotated(k, m.axes);
+    carry_to_nodes(m, at_nodes, &k);
+    *tangent += k;
+  }
+  force += at_nodes;
 }
 
 ElementPose CorotationalBeam::pose(const BeamFrame& frame, const Vector12& displacement, const double* history) const {

@@ -27,6 +27,11 @@ class CorotationalBeam : public MemberGeometry {
   ElementPose pose(const BeamFrame& frame, const Vector12& displacement, const double* history) const override;
 };
 
+// Adds what `part` of a load between the ends of a corotational beam does beyond the basic forces: the load turns with the
+// member, the supports' forces act in its present axes.
+void add_turning_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement,
+                      const double* committed, Vector12& force, Matrix12* tangent);
+
 // Axial force along the present chord; the rotations of the nodes don't matter.
 class CorotationalBar : public MemberGeometry {
  public:

@@ -233,8 +233,9 @@ void ForceBeamsOf<n>::find_sections(int element, const Basic& deformation, doubl
   PointVectors start, correction;
   for (int iteration = 0;; ++iteration) {
     balance(e, deformation, part, iteration > 0, trial, flexibility);
-    // energies of the unbalanced, the changed and the whole section forces on the sections' flexibility
-    double unbalance = 0, change = 0, scale = 0;
+    // energies of the unbalanced, the changed and the whole section forces on the sections' flexibility: of the fibers, and of
+    // the laws beside them, whose energy may be much larger
+    Eigen::Array2d unbalances = Eigen::Array2d::Zero(), change = Eigen::Array2d::Zero(), scale = Eigen::Array2d::Zero();
     for (int i = 0; i < e.points(); ++i) {
       const auto at = static_cast<std::size_t>(i);
       const Section wanted = section_force(e, head.force, part, i);
@@ -242,13 +243,23 @@ void ForceBeamsOf<n>::find_sections(int element, const Basic& deformation, doubl
       const SectionMatrix& f = flexibility[at];
       start[at] = head.section_deformation(i);
       correction[at] = f * out_of_balance;
-      unbalance += e.weight(i) * out_of_balance.dot(correction[at]);
-      change += e.weight(i) * changed.dot(f * changed);
-      scale += e.weight(i) * wanted.dot(f * wanted);
+      const Section of_change = f * changed, of_wanted = f * wanted;
+      for (const int part_of : {0, 1}) {
+        const Eigen::Index first = 3 * part_of;
+        if (first >= n) break;
+        const auto energy = [&](const Section& a, const Section& b) {
+          return e.weight(i) * a.template segment<3>(first).dot(b.template segment<3>(first));
+        };
+        unbalances[part_of] += energy(out_of_balance, correction[at]);
+        change[part_of] += energy(changed, of_change);
+        scale[part_of] += energy(wanted, of_wanted);
+      }
     }
-    const double accepted = std::max({change_tolerance * change_tolerance * change, force_tolerance * force_tolerance * scale,
-                                      rounding * rounding * head.tangent.trace()});
-    if (iteration > 0 && unbalance <= accepted) return;
+    const Eigen::Array2d accepted = (change_tolerance * change_tolerance * change)
+                                        .max(force_tolerance * force_tolerance * scale)
+                                        .max(rounding * rounding * head.tangent.trace());
+    if (iteration > 0 && (unbalances <= accepted).all()) return;
+    const double unbalance = unbalances.sum();
     if (!std::isfinite(unbalance) || iteration >= max_inner_iterations) {
       throw ConvergenceError(fmt::format("force-based element '{}' does not find its section forces", id(element)));
     }

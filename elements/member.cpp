@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "elements/corotational.hpp"
+
 namespace nsframe {
 
 void Members::add(const ElementNodes& nodes, std::string id, const BeamFrame& frame, int history_size, bool loaded) {
@@ -34,7 +36,12 @@ void Members::respond(int element, const Vector12& displacement, const double* c
                 tangent ? &basic_tangent : nullptr);
   geometry_.to_global(frame, displacement, committed, basic_force, basic_tangent, force, tangent);
   const MemberLoad* const acting = load(element);
-  if (acting && !acting->empty()) geometry_.add_load(frame, *acting, part, displacement, force, tangent);
+  if (!acting || acting->empty()) return;
+  if (geometry_.finite()) {
+    add_turning_load(frame, *acting, part, displacement, committed, force, tangent);
+  } else {
+    geometry_.add_load(frame, *acting, part, displacement, force, tangent);
+  }
 }
 
 ElementShape Members::member_shape(int element, const SectionOutline* outline) const {

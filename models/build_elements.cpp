@@ -190,11 +190,11 @@ void GroupBuilder::add(const ElementDescription& element, const ElementNodes& no
   const Library::Section* section = find(library_.sections, element.section, "section", diagnostics_);
   if (!section) return;
   Beam beam{element, id, nodes, frame, section, {}};
-  if (!loads.empty() && element.geometry == Geometry::corotational) {
-    return diagnostics_.error(loads.front()->at, fmt::format("element '{}' is corotational: loads between its ends are not carried; "
-                                                             "use linear or p-delta, or loads at nodes", id));
-  }
   for (const LoadDescription* load : loads) {
+    if (!load->local && element.geometry == Geometry::corotational) {
+      return diagnostics_.error(load->at, fmt::format("element '{}' is corotational: loads between its ends turn with it and are given in "
+                                                      "its local axes; use these, linear or p-delta geometry, or loads at nodes", id));
+    }
     const auto local = [&](const Vector3& v) { return load->local ? v : Vector3(axes * v); };
     beam.load.uniform += local(load->uniform);
     if (!load->force.isZero(0)) beam.load.points.push_back({load->position, local(load->force)});
@@ -228,7 +228,7 @@ void GroupBuilder::add_mass(Beam& beam) {
   for (int block = 0; block < 12; block += 3) to_local.block<3, 3>(block, block) = beam.frame.axes;
   to_local = to_local * member_ends(beam.element.releases, elastic_basic_stiffness(s, L), beam.frame);
   const double per_length = mass_per_length(mass, section);
-  // loads between the ends of corotational members would have to turn with them: their weight hangs at the nodes
+  // loads between the ends of corotational members turn with them, which weights don't: these hang at the nodes
   const bool at_nodes = beam.element.geometry == Geometry::corotational;
   masses_.push_back({beam.id, beam.nodes, to_local.transpose() * member_mass_matrix(mass, section, L) * to_local,
                      at_nodes ? per_length * L / 2 : 0});

@@ -163,7 +163,8 @@ class Expansion {
     element.geometry = members.geometry;
     if (members.releases) element.releases = basic_releases(*members.releases);
     const Vector3 along = (position_.at(element.node_j.name) - position_.at(element.node_i.name)).normalized();
-    element.offset = {members.rigid_ends[0] * along, -members.rigid_ends[1] * along};
+    element.offset[0] += members.rigid_ends[0] * along;
+    element.offset[1] -= members.rigid_ends[1] * along;
     return element;
   }
 

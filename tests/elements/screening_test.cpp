@@ -120,12 +120,17 @@ TEST_CASE("a section screened to an error of stress stays quiet for longer, and 
   const FiberSection exact = sections()[3].section;
   for (const double error : {1e-12, 1e-10, 1e-6}) {
     const FiberSection screened = section_of({Steel02{235e6, 210e9, 0.01}}, error);
+    int quiet = 0, quiet_exact = 0;
+    double difference = 0;
     for (unsigned seed = 1; seed < 6; ++seed) {
-      const Comparison a = compare(exact, 0.12, 300, seed), b = compare(screened, 0.12, 300, seed);
-      CHECK(b.quiet > a.quiet);
-      CHECK(b.difference < std::max(2e-12, 20 * error));  // of the tangent: R + 1 times that of the stress
-      CHECK(b.difference > (error > 1e-7 ? 1e-9 : 0));
+      const Comparison a = compare(exact, 0.3, 300, seed), b = compare(screened, 0.3, 300, seed);
+      quiet += b.quiet;
+      quiet_exact += a.quiet;
+      difference = std::max(difference, b.difference);
     }
+    CHECK(quiet > quiet_exact);
+    CHECK(difference < std::max(2e-12, 20 * error));  // of the tangent: R + 1 times that of the stress
+    if (error > 1e-7) CHECK(difference > 1e-9);
   }
 }
 

@@ -79,7 +79,7 @@ TEST_CASE("a load names beams that are there, and acts between their ends") {
   CHECK(error_of(d) == "s.toml:8:3: error: a load at 1.5 of the beam's length, must lie in [0, 1]");
 }
 
-TEST_CASE("a corotational member carries no load between its ends; its own weight hangs at its nodes") {
+TEST_CASE("a corotational member carries loads in its local axes only; its own weight hangs at its nodes") {
   ModelDescription d = column();
   only(d).elements[0].geometry = Geometry::corotational;
   only(d).elements[0].mass = {40, 0, false, false};
@@ -92,6 +92,8 @@ TEST_CASE("a corotational member carries no load between its ends; its own weigh
   load.elements = {{"e1", at(9)}};
   load.uniform = Vector3(1, 0, 0);
   only(d).loads = {load};
-  CHECK(error_of(d) == "s.toml:8:3: error: element 'a.e1' is corotational: loads between its ends are not carried; use linear or "
-                       "p-delta, or loads at nodes");
+  CHECK(error_of(d) == "s.toml:8:3: error: element 'a.e1' is corotational: loads between its ends turn with it and are given in its "
+                       "local axes; use these, linear or p-delta geometry, or loads at nodes");
+  only(d).loads[0].local = true;
+  CHECK(error_of(d) == "no error");
 }

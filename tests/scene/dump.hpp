@@ -26,7 +26,7 @@ inline std::string dump(const SectionDescription& s) {
   if (const auto* e = std::get_if<ElasticSection>(&s.kind))
     out += fmt::format(" {} {} {} {} {} {} {} {}", e->E, e->G, e->A, e->Iz, e->Iy, e->J, e->Ay, e->Az);
   if (const auto* f = std::get_if<FiberSectionDescription>(&s.kind)) {
-    out += fmt::format(" GJ {}", f->torsion_stiffness);
+    out += fmt::format(" GJ {} {} {} {}", f->torsion_stiffness, name(f->torsion), name(f->shear_y), name(f->shear_z));
     for (const auto& fiber : f->fibers)
       out += fmt::format(" ({} {} {} {}{})", fiber.y, fiber.z, fiber.area, fiber.material.name,
                          fiber.displaced ? " out" : "");
@@ -52,7 +52,8 @@ inline std::string dump(const SpringDescription& s) {
   std::string out = fmt::format("spring {} {}-{} {} {}", s.id, s.node_i.name, name(s.node_j), numbers(s.stiffness),
                                 numbers(s.damping));
   for (const auto& law : s.law) out.append(" ").append(name(law));
-  out += numbers(s.x) + (s.in_plane ? numbers(*s.in_plane) : "") + (s.shear_distance ? numbers(*s.shear_distance) : "");
+  out += numbers(s.x) + (s.in_plane ? numbers(*s.in_plane) : "") + (s.shear_distance ? numbers(*s.shear_distance) : "") +
+         (s.p_delta ? numbers(*s.p_delta) : "");
   return out + "\n";
 }
 
@@ -76,7 +77,7 @@ inline std::string dump(const StructureDescription& s) {
     out += fmt::format("load {} {} {} {} {}\n", names(l.elements), l.local, numbers(l.uniform), numbers(l.force), l.position);
   for (const auto& c : s.constraints)
     out +=
-        fmt::format("constraint {} {}: {} {} {}\n", int(c.kind), c.master.name, names(c.slaves), fmt::join(c.dofs, " "), c.normal);
+        fmt::format("constraint {} {}: {} {} {}\n", int(c.kind), c.master.name, names(c.slaves), fmt::join(c.dofs, " "), numbers(c.normal));
   for (const auto& p : s.slabs)
     out += fmt::format("slab {} {} center {} {} {}\n", p.id, names(p.corners), name(p.center), p.thickness, p.rigid);
   out += dump(s.damping);

@@ -175,7 +175,7 @@ TEST_CASE("sections that can't be made are errors") {
   CHECK(error("[section.a]\npatches = [{ material = \"m\", y = [0, 1], z = [1, 1] }]\nGJ = 1") ==
         "s.toml:2:11: error: a patch has no area");
   CHECK(error("[section.a]\nfibers = [[0, 0, 1, \"m\"]]") ==
-        "s.toml:1:10: error: a fiber section needs either GJ, or G and J");
+        "s.toml:1:10: error: a fiber section needs either GJ, or G and J, or torsion_law");
   CHECK(error("[section.a]\ndepth = 1") ==
         "s.toml:1:10: error: a section needs one of: " + section_choices());
 }

@@ -1,0 +1,97 @@
+// Loads between the ends of corotational members turn with them: a cantilever under pressure against its elastica.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "integrators/simulation.hpp"
+#include "tests/support/small_models.hpp"
+
+using namespace nsframe;
+using namespace nsframe::test;
+
+namespace {
+
+constexpr double length = 4, EI = 2e6, pressure = 5e5;  // [m], [N m2], [N/m]: the tip turns by about 1.8 rad
+
+struct Tip {
+  double x = 0, y = 0, angle = 0;
+};
+
+// The elastica N' = k V, V' = -k N - q, M' = -V, M = EI k in its own axes, from the free end inwards by Runge-Kutta; then the
+// angle and the curve from the clamp.
+Tip elastica() {
+  constexpr int n = 20000;
+  const double h = length / n;
+  std::vector<double> curvature(n + 1);  // at the distance i h from the free end
+  Vector3 s = Vector3::Zero();           // N, V, M
+  const auto rate = [](const Vector3& f) {  // by the distance from the free end
+    const double k = f[2] / EI;
+    return Vector3(-k * f[1], k * f[0] + pressure, f[1]);
+  };
+  for (int i = 0; i < n; ++i) {
+    const Vector3 a = rate(s), b = rate(s + h / 2 * a), c = rate(s + h / 2 * b), d = rate(s + h * c);
+    s += h / 6 * (a + 2 * b + 2 * c + d);
+    curvature[static_cast<std::size_t>(i + 1)] = s[2] / EI;
+  }
+  Tip tip;
+  for (int i = n; i > 0; --i) {
+    const double mean = 0.5 * (curvature[static_cast<std::size_t>(i)] + curvature[static_cast<std::size_t>(i - 1)]);
+    const double middle = tip.angle + h / 2 * mean;
+    tip.x += h * std::cos(middle);
+    tip.y += h * std::sin(middle);
+    tip.angle += h * mean;
+  }
+  return tip;
+}
+
+Tip cantilever(int elements, ElementKind kind) {
+  ModelDescription d;
+  const double E = 200e9, I = EI / E, A = 0.05;  // stretches by less than 1e-4
+  const double y = std::sqrt(I / A);
+  FiberSectionDescription fibers;
+  for (const double sy : {-y, y})
+    for (const double sz : {-y, y}) fibers.fibers.push_back({sy, sz, A / 4, {"m", {}}});
+  fibers.torsion_stiffness = EI;
+  d.materials = {{"m", {}, Elastic{E}}};
+  d.sections.resize(1);
+  d.sections[0].name = "s";
+  d.sections[0].kind = fibers;
+  StructureDescription s;
+  s.name = "a";
+  s.supports = {fixed("0")};
+  LoadDescription load;
+  load.local = true;
+  load.uniform = Vector3(0, pressure, 0);
+  for (int i = 0; i <= elements; ++i) {
+    s.nodes.push_back(node(std::to_string(i), length * i / elements, 0, 0));
+    if (i == 0) continue;
+    s.elements.push_back(beam("e" + std::to_string(i), std::to_string(i - 1), std::to_string(i), "s", kind));
+    s.elements.back().geometry = Geometry::corotational;
+    s.elements.back().orientation = Vector3::UnitZ();  // local y along global Y
+    load.elements.push_back({s.elements.back().id, {}});
+    s.masses.push_back(mass(std::to_string(i), 1));
+  }
+  s.loads = {load};
+  d.structures = {s};
+  const Model model = build(d);
+  Simulation simulation(model, {});
+  const Vector6 u = model.dofs.expand(simulation.state().displacement).segment<6>(full_dof(model, "a." + std::to_string(elements), 0));
+  return {length + u[0], u[1], u[5]};
+}
+
+double distance(const Tip& a, const Tip& b) { return std::hypot(a.x - b.x, a.y - b.y, a.angle - b.angle); }
+
+}  // namespace
+
+TEST_CASE("a pressure on corotational members stays normal to them, as in the elastica") {
+  const Tip exact = elastica();
+  CHECK(exact.angle > 1.5);
+  for (const ElementKind kind : {ElementKind::elastic_beam, ElementKind::force_beam, ElementKind::displacement_beam}) {
+    CAPTURE(int(kind));
+    const Tip coarse = cantilever(8, kind), fine = cantilever(16, kind);
+    CHECK(distance(coarse, exact) / distance(fine, exact) == doctest::Approx(4).epsilon(0.1));  // second order
+    const auto limit = [](double a, double b) { return b + (b - a) / 3; };
+    const Tip extrapolated{limit(coarse.x, fine.x), limit(coarse.y, fine.y), limit(coarse.angle, fine.angle)};
+    CHECK(distance(extrapolated, exact) < 5e-4);
+  }
+}
