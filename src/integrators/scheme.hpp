@@ -47,6 +47,9 @@ class Scheme {
 
   virtual long factorizations() const = 0;
 
+  // What `nsframe check` says of it, a line each.
+  virtual std::vector<std::string> describe() const { return {}; }
+
   // What outlives a step and is not in State: with it, a restored scheme goes on with the same bits.
   virtual void save(Snapshot& snapshot) const = 0;
   virtual void restore(System& system, const Snapshot& snapshot) = 0;

@@ -1,0 +1,190 @@
+// Impacts and sustained contact of the scheme `exact` (theory.md, 139-141).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/errors.hpp"
+#include "contact/contact_problem.hpp"
+#include "integrators/exact.hpp"
+
+namespace nsframe {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+// An approach slower than this part of the fastest one so far ends an accumulation of impacts.
+constexpr double slowest_approach = 1e-8;
+constexpr int most_rounds = 1000;  // of impacts at one time
+
+}  // namespace
+
+double Exact::rate_noise(int pair) const { return 32 * epsilon * modes_.gap.row(pair).cwiseAbs().dot(state_.y.cwiseAbs()); }
+
+// 0 <= r, W r + rhs >= 0, complementary, on some pairs. The active ones are solved again with more digits: W of a heavy mass on a light one
+// is nearly singular.
+VectorX Exact::solve_forces(const System& system, const std::vector<int>& pairs, const VectorX& rhs, StepResult& result) const {
+  const ContactProblem problem{modes_.delassus(pairs, pairs), rhs};
+  ContactSolution solution = solve_active_set(problem, {options_.contact_tolerance, options_.max_contact_sweeps});
+  result.complementarity_error = std::max(result.complementarity_error, solution.error);
+  if (!solution.converged) {
+    throw ConvergenceError(fmt::format("the contact problem did not converge (error {:.1e}), first pair {}", solution.error,
+                                       system.contacts().pairs[static_cast<std::size_t>(pairs.front())].name));
+  }
+  if (solution.impulse.maxCoeff() <= 0) return solution.impulse;
+  // of redundant pairs, all that may carry share the load by least squares, if none would have to pull
+  std::vector<Eigen::Index> active;
+  const VectorX left = problem.delassus * solution.impulse + rhs;
+  const double zero = 1e-13 * rhs.cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < rhs.size(); ++i) {
+    if (solution.impulse[i] > 0 || left[i] <= zero) active.push_back(i);
+  }
+  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  Matrix G(static_cast<Eigen::Index>(active.size()), modes_.padded);
+  Eigen::Matrix<long double, Eigen::Dynamic, 1> right(G.rows());
+  for (Eigen::Index i = 0; i < G.rows(); ++i) {
+    const Eigen::Index a = active[static_cast<std::size_t>(i)];
+    const long double scale = 1 / std::sqrt(static_cast<long double>(problem.delassus(a, a)));
+    G.row(i) = scale * modes_.gap.row(pairs[static_cast<std::size_t>(a)]).cast<long double>();
+    right[i] = -scale * static_cast<long double>(rhs[a]);
+  }
+  Eigen::CompleteOrthogonalDecomposition<Matrix> factor;
+  factor.setThreshold(1e-14L);
+  factor.compute(G * G.transpose());
+  const auto scaled = factor.solve(right).eval();
+  if (scaled.minCoeff() < 0) return solution.impulse;
+  for (Eigen::Index i = 0; i < G.rows(); ++i) {
+    const Eigen::Index a = active[static_cast<std::size_t>(i)];
+    solution.impulse[a] = static_cast<double>(scaled[i] / std::sqrt(static_cast<long double>(problem.delassus(a, a))));
+  }
+  return solution.impulse;
+}
+
+VectorX Exact::accelerations() const {
+  const VectorX springs = compliant_forces(contact_.constant + modes_.gap * state_.x);
+  const VectorX modal = state_.f0 - 2 * modes_.decay.cwiseProduct(state_.y) - modes_.square.cwiseProduct(state_.x) + modes_.gap.transpose() * springs;
+  return modes_.gap * modal;
+}
+
+void Exact::collide(const System& system, double time, double remaining, StepResult& result) {
+  if (modes_.pairs() == 0) return;
+  rate_ = modes_.gap * state_.y;
+  for (int round = 0; collide_once(system, time, remaining, result); ++round) {
+    if (round > most_rounds) throw ConvergenceError(fmt::format("more than {} impacts at t = {:.9g} s", most_rounds, time));
+  }
+  settle(system, time, result);
+  disturbed_ = true;
+}
+
+bool Exact::collide_once(const System& system, double time, double remaining, StepResult& result) {
+  std::vector<int> pairs;
+  bool closing = false;
+  for (int c = 0; c < modes_.pairs(); ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    if (modes_.compliant[i]) continue;
+    const bool closed = std::binary_search(contact_.closed.begin(), contact_.closed.end(), c);
+    const double noise = rate_noise(c);
+    if (!closed && (!contact_.touching[i] || rate_[c] > noise)) continue;
+    pairs.push_back(c);
+    closing = closing || rate_[c] < -noise;
+  }
+  if (!closing) return false;
+  VectorX rhs(static_cast<Eigen::Index>(pairs.size()));
+  double fastest = 0;
+  for (const int c : pairs) fastest = std::max(fastest, -rate_[c]);
+  largest_approach_ = std::max(largest_approach_, fastest);
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const int c = pairs[k];
+    const bool slow = -rate_[c] < slowest_approach * largest_approach_;
+    const double e = slow ? 0 : system.contacts().restitution[c];
+    rhs[static_cast<Eigen::Index>(k)] = (1 + e) * rate_[c];
+  }
+  const VectorX impulse = solve_forces(system, pairs, rhs, result);
+  VectorX change = VectorX::Zero(modes_.dofs);
+  const VectorX before = rate_;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const double p = impulse[static_cast<Eigen::Index>(k)];
+    if (p <= 0) continue;
+    state_.y += p * modes_.gap.row(pairs[k]).transpose();
+    change += p * modes_.velocity_jump.col(pairs[k]);
+  }
+  rate_ = modes_.gap * state_.y;
+  const VectorX acceleration = accelerations();
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const int c = pairs[k];
+    const double p = impulse[static_cast<Eigen::Index>(k)];
+    if (p <= 0) continue;
+    step_impulse_[c] += p;
+    result.contact -= 0.5 * p * (before[c] + rate_[c]);
+    // the rest of an accumulation: it would have ended after the sum of its ever shorter flights
+    const double e = system.contacts().restitution[c], slow = slowest_approach * largest_approach_;
+    double rest = 0;
+    if (-before[c] < slow && e < 1 && acceleration[c] < 0) rest = -2 * e * before[c] / (-acceleration[c] * (1 - e));
+    result.impacts.push_back({time + std::min(rest, remaining), c, -before[c], p, before[c], rate_[c]});
+  }
+  result.jumps.push_back({time, std::move(change)});
+  return true;
+}
+
+void Exact::settle(const System& system, double time, StepResult& result) {
+  std::vector<int> candidates, closed;
+  for (int c = 0; c < modes_.pairs(); ++c) {
+    const auto i = static_cast<std::size_t>(c);
+    const bool was = std::binary_search(contact_.closed.begin(), contact_.closed.end(), c);
+    if (modes_.compliant[i]) {
+      if (was || (contact_.touching[i] && rate_[c] < 0)) closed.push_back(c);
+    } else if ((was || contact_.touching[i]) && std::abs(rate_[c]) <= std::max(rate_noise(c), 1e-12 * largest_approach_)) {
+      candidates.push_back(c);
+    }
+  }
+  std::vector<int> springs = closed;
+  std::swap(contact_.closed, springs);  // the acceleration is that under the springs alone
+  const VectorX acceleration = accelerations();
+  std::swap(contact_.closed, springs);
+  if (!candidates.empty()) {
+    const VectorX force = solve_forces(system, candidates, acceleration(candidates), result);
+    const double most = force.maxCoeff();
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      if (force[static_cast<Eigen::Index>(k)] > 1e-12 * most) closed.push_back(candidates[k]);
+    }
+  }
+  std::sort(closed.begin(), closed.end());
+  for (const int c : std::vector<int>(contact_.closed)) {
+    if (!std::binary_search(closed.begin(), closed.end(), c)) end_contact(c, time, result);
+  }
+  contact_.closed = closed;
+  for (const int c : closed) contact_.touching[static_cast<std::size_t>(c)] = false;
+  remove_drift();
+}
+
+// Rounding, and what the collocation leaves, in the gaps and rates of sustained contacts without compliance.
+void Exact::remove_drift() {
+  std::vector<int> rigid;
+  for (const int c : contact_.closed) {
+    if (!modes_.compliant[static_cast<std::size_t>(c)]) rigid.push_back(c);
+  }
+  if (rigid.empty()) return;
+  const VectorX scale = modes_.delassus.diagonal()(rigid).cwiseSqrt().cwiseInverse();
+  Eigen::CompleteOrthogonalDecomposition<MatrixX> factor;
+  factor.setThreshold(1e-12);
+  factor.compute(scale.asDiagonal() * modes_.delassus(rigid, rigid) * scale.asDiagonal());
+  const VectorX gap = modes_.gap * state_.x + contact_.constant, rate = modes_.gap * state_.y;
+  const VectorX x = factor.solve(scale.cwiseProduct(VectorX(gap(rigid))).eval()),
+                y = factor.solve(scale.cwiseProduct(VectorX(rate(rigid))).eval());
+  for (std::size_t k = 0; k < rigid.size(); ++k) {
+    const auto i = static_cast<Eigen::Index>(k);
+    state_.x -= x[i] * scale[i] * modes_.gap.row(rigid[k]).transpose();
+    state_.y -= y[i] * scale[i] * modes_.gap.row(rigid[k]).transpose();
+  }
+}
+
+void Exact::end_contact(int pair, double time, StepResult& result) {
+  std::erase(contact_.closed, pair);
+  contact_.touching[static_cast<std::size_t>(pair)] = true;
+  const double impulse = contact_impulse_[pair];
+  contact_impulse_[pair] = 0;
+  if (!(impulse > 0)) return;
+  result.impacts.push_back({time, pair, 0, impulse, 0, 0});
+}
+
+}  // namespace nsframe

@@ -1,0 +1,22 @@
+// The inner loops of the scheme `exact` over all modes, by the widest SIMD the machine has (Highway, chosen at run time). All
+// arrays have `padded` entries, a multiple of dense_row_padding.
+#pragma once
+
+namespace nsframe {
+
+// x+ = A x + B y + L f0 + R f1, y+ = -w^2 B x + (A - 2 a B) y + B f0 + L f1, with the load f0 + f1 s (theory.md, 131), of
+// oscillating modes after a time s: |w s| < 39000.
+void propagate_oscillators(int padded, double s, const double* square, const double* decay, const double* damped, const double* x,
+                           const double* y, const double* f0, const double* f1, double* x_after, double* y_after);
+
+// The same with coefficients known before, the four of x and y in two parts each: high + low.
+struct StepArrays {
+  const double *xx, *xy, *yx, *yy, *xx_low, *xy_low, *yx_low, *yy_low, *x0, *x1, *y0, *y1;
+};
+void apply_step(int padded, const StepArrays& step, const double* x, const double* y, const double* f0, const double* f1, double* x_after,
+                double* y_after);
+
+// gap = G x, rate = G y; G: pairs x padded, by rows.
+void multiply_gaps(int padded, int pairs, const double* G, const double* x, const double* y, double* gap, double* rate);
+
+}  // namespace nsframe

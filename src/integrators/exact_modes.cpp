@@ -1,0 +1,252 @@
+#include "integrators/exact_modes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/dense_kernel.hpp"
+#include "base/errors.hpp"
+
+namespace nsframe {
+
+namespace {
+
+constexpr int long_double_limit = 200;      // DOFs of a structure up to which its modes are found in long double
+constexpr double slow = 1;                  // [rad/s]: below, f / w^2 would lose digits
+constexpr double coupling_tolerance = 1e-8;  // of damping between two modes, relative to their own
+
+// Modes of one structure: columns of shape (n x modes); basis of what has no mass, with its stiffness factored into `flexibility`.
+struct BlockModes {
+  VectorX square;
+  MatrixX shape, massless, flexibility;
+};
+
+template <class Real>
+BlockModes solve_block(const MatrixX& stiffness, const MatrixX& mass, bool may_move_freely) {
+  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+  const Eigen::Index n = mass.rows();
+  Vector scale(n);
+  for (Eigen::Index i = 0; i < n; ++i) scale[i] = mass(i, i) > 0 ? 1 / std::sqrt(static_cast<Real>(mass(i, i))) : Real(1);
+  // q = basis s, with the mass matrix diagonal in s
+  Matrix basis = Matrix::Identity(n, n);
+  Vector inertia(n);
+  const bool diagonal = (mass - MatrixX(mass.diagonal().asDiagonal())).cwiseAbs().maxCoeff() == 0;
+  if (diagonal) {
+    for (Eigen::Index i = 0; i < n; ++i) inertia[i] = mass(i, i) > 0 ? Real(1) : Real(0);
+  } else {
+    const Matrix scaled = scale.asDiagonal() * mass.cast<Real>() * scale.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(scaled);
+    basis = solver.eigenvectors();
+    inertia = solver.eigenvalues();
+  }
+  basis = (scale.asDiagonal() * basis).eval();
+  std::vector<Eigen::Index> massive, massless;
+  for (Eigen::Index i = 0; i < n; ++i) (inertia[i] > Real(1e-12) ? massive : massless).push_back(i);
+  const Matrix heavy = basis(Eigen::all, massive) * inertia(massive).cwiseSqrt().cwiseInverse().asDiagonal();
+  const Matrix light = basis(Eigen::all, massless);
+  const Matrix K = stiffness.cast<Real>();
+  Matrix condensed = heavy.transpose() * K * heavy, follow = heavy, flexibility(n, 0);
+  BlockModes modes;
+  if (!massless.empty()) {
+    const Eigen::LDLT<Matrix> factor(light.transpose() * K * light);
+    const Matrix coupling = light.transpose() * K * heavy;
+    const Matrix static_part = factor.solve(coupling);
+    condensed -= coupling.transpose() * static_part;
+    follow -= light * static_part;
+    flexibility = factor.solve(Matrix(light.transpose()));
+    modes.flexibility = Matrix(light * flexibility).template cast<double>();
+  } else {
+    modes.flexibility = MatrixX::Zero(n, n);
+  }
+  condensed = (Real(0.5) * (condensed + condensed.transpose())).eval();
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(condensed);
+  Vector square = solver.eigenvalues();
+  if (square.size() > 0) {
+    // rounding of K alone; of a structure with supports, no mode is a rigid-body motion
+    const Real zero = (may_move_freely ? Real(1e-11) : Real(0)) * square[square.size() - 1];
+    for (Real& value : square) value = value <= zero ? Real(0) : value;
+  }
+  modes.square = square.template cast<double>();
+  modes.shape = Matrix(follow * solver.eigenvectors()).template cast<double>();
+  modes.massless = light.template cast<double>();
+  return modes;
+}
+
+[[noreturn]] void refuse(const Structure& structure, const std::string& why) {
+  Diagnostics diagnostics;
+  diagnostics.error(structure.at, fmt::format("scheme 'exact' moves structure '{}' in its natural modes, but {}; use scheme = \"moreau-jean\"",
+                                              structure.name, why));
+  diagnostics.throw_if_any();
+  throw InputError(why);
+}
+
+// Turns modes of (nearly) one frequency so that the damping does not couple them.
+void separate_equal_modes(BlockModes& modes, const MatrixX& damping) {
+  const Eigen::Index count = modes.square.size();
+  for (Eigen::Index first = 0; first < count;) {
+    Eigen::Index last = first + 1;
+    while (last < count && modes.square[last] - modes.square[first] <= 1e-9 * modes.square[last]) ++last;
+    if (last - first > 1) {
+      const MatrixX shapes = modes.shape.middleCols(first, last - first);
+      const Eigen::SelfAdjointEigenSolver<MatrixX> solver(shapes.transpose() * damping * shapes);
+      modes.shape.middleCols(first, last - first) = shapes * solver.eigenvectors();
+    }
+    first = last;
+  }
+}
+
+// Modal damping factors 2 a; refuses damping that couples modes, or acts on DOFs without mass where that would matter.
+VectorX modal_damping(const System& system, const Structure& structure, BlockModes& modes, const MatrixX& C, const MatrixX& H) {
+  separate_equal_modes(modes, C);
+  const MatrixX D = modes.shape.transpose() * C * modes.shape;
+  const VectorX own = D.diagonal().cwiseMax(0.0);
+  for (Eigen::Index i = 0; i < D.rows(); ++i) {
+    for (Eigen::Index j = 0; j < i; ++j) {
+      const double floor = 1e-13 * std::sqrt(std::max(modes.square[i], modes.square[j]));
+      if (std::abs(D(i, j)) > coupling_tolerance * std::sqrt(own[i] * own[j]) + floor) {
+        refuse(structure, fmt::format("its damping couples modes {} and {} (dashpots do that)", j + 1, i + 1));
+      }
+    }
+  }
+  const MatrixX& N = modes.massless;
+  for (Eigen::Index i = 0; i < N.cols(); ++i) {
+    const VectorX force = C * N.col(i);
+    const double rate = N.col(i).dot(force);
+    if (!(rate > 0)) continue;
+    const VectorX coupling = modes.shape.transpose() * force;
+    for (Eigen::Index k = 0; k < coupling.size(); ++k) {
+      if (std::abs(coupling[k]) > coupling_tolerance * std::sqrt(own[k] * rate) + 1e-300) {
+        refuse(structure, "its damping couples them with DOFs that have no mass");
+      }
+    }
+    const bool touched = H.rows() > 0 && (H * N.col(i)).cwiseAbs().maxCoeff() > 0;
+    const bool pulled = !system.model.gravity_statically_first &&
+                        std::abs(N.col(i).dot(system.static_load.segment(structure.first_dof, N.rows()))) > 0;
+    if (touched) refuse(structure, "contact meets DOFs that have damping and no mass: give them mass, or choose modal damping");
+    if (pulled) refuse(structure, "loads act suddenly on DOFs that have damping and no mass");
+  }
+  return own;
+}
+
+void refuse_nonlinear_elements(const System& system) {
+  if (system.linear()) return;
+  for (const auto& group : system.model.groups) {
+    if (group->linear() || group->size() == 0) continue;
+    std::string kind(group->kind());
+    std::replace(kind.begin(), kind.end(), '_', ' ');
+    throw InputError(fmt::format("error: scheme 'exact' is for linear scenes, and element '{}' ({}) is nonlinear; use scheme = "
+                                 "\"moreau-jean\"",
+                                 group->id(0), kind));
+  }
+}
+
+// What contact pairs see of the modes.
+void find_contacts(const System& system, const std::vector<BlockModes>& blocks, ExactModes& modes) {
+  const Contacts& contacts = system.contacts();
+  const int pairs = contacts.size(), n = modes.dofs;
+  modes.jacobian = contacts.jacobian;
+  modes.gap.setZero(pairs, modes.padded);
+  modes.massless_response.setZero(n, pairs);
+  modes.velocity_jump.setZero(n, pairs);
+  if (pairs == 0) return;
+  const MatrixX H(contacts.jacobian);
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    const BlockRange& range = system.assembler.blocks()[b];
+    const auto part = H.middleCols(range.first, range.size());
+    const Eigen::Index count = blocks[b].square.size();
+    modes.gap.middleCols(range.first, count) = part * blocks[b].shape;
+    modes.massless_response.middleRows(range.first, range.size()) = blocks[b].flexibility * part.transpose();
+    modes.velocity_jump.middleRows(range.first, range.size()) = blocks[b].shape * modes.gap.middleCols(range.first, count).transpose();
+  }
+  modes.delassus = modes.gap * modes.gap.transpose();
+  modes.compliance = H * modes.massless_response;
+  modes.compliant.assign(static_cast<std::size_t>(pairs), false);
+  for (int c = 0; c < pairs; ++c) {
+    double flexible = 0;
+    for (int k = 0; k < n; ++k) {
+      if (modes.square[k] > 0) flexible += modes.gap(c, k) * modes.gap(c, k) / modes.square[k];
+    }
+    const bool compliant = modes.compliance(c, c) > 1e-12 * flexible;
+    modes.compliant[static_cast<std::size_t>(c)] = compliant;
+    if (!compliant && modes.delassus(c, c) <= 0) {
+      throw InputError(fmt::format("error: scheme 'exact': neither side of contact pair '{}' can move", contacts.pairs[static_cast<std::size_t>(c)].name));
+    }
+    if (!compliant) {
+      modes.compliance.row(c).setZero();
+      modes.compliance.col(c).setZero();
+      modes.massless_response.col(c).setZero();
+    }
+    for (int k = 0; k < n; ++k) {
+      if (modes.gap(c, k) * modes.gap(c, k) > 1e-18 * modes.delassus(c, c)) modes.highest = std::max(modes.highest, std::sqrt(modes.square[k]) + 2 * modes.decay[k]);
+    }
+  }
+  modes.rest_gap = contacts.jacobian * modes.rest;
+  modes.gap_offset = contacts.initial_gap + modes.rest_gap;
+}
+
+}  // namespace
+
+ExactModes exact_modes(const System& system) {
+  refuse_nonlinear_elements(system);
+  const Model& model = system.model;
+  const int n = model.dofs.size();
+  ExactModes modes;
+  modes.dofs = n;
+  modes.padded = (n + dense_row_padding - 1) / dense_row_padding * dense_row_padding;
+  modes.square = modes.damped = modes.flexibility = VectorX::Ones(modes.padded);
+  modes.decay = VectorX::Zero(modes.padded);
+  modes.static_load = VectorX::Zero(modes.padded);
+  modes.motion_load.assign(model.motions.size(), VectorX::Zero(modes.padded));
+  modes.rest = VectorX::Zero(n);
+  const std::vector<BlockRange>& ranges = system.assembler.blocks();
+  const MatrixX H = MatrixX(model.contacts.jacobian);
+  std::vector<BlockModes> blocks;
+  std::vector<MatrixX> shapes, projections;
+  for (std::size_t b = 0; b < ranges.size(); ++b) {
+    const BlockRange& range = ranges[b];
+    const int size = range.size();
+    const Structure& structure = model.structures[b];
+    const MatrixX K(extract_block(system.assembler.tangent(), range)), M(extract_block(model.mass, range));
+    BlockModes block = size == 0                    ? BlockModes{VectorX(0), MatrixX(0, 0), MatrixX(0, 0), MatrixX(0, 0)}
+                       : size <= long_double_limit ? solve_block<long double>(K, M, structure.may_move_freely)
+                                                   : solve_block<double>(K, M, structure.may_move_freely);
+    MatrixX C(extract_block(system.damping.viscous, range));
+    C += system.damping.modal[b] * system.damping.modal[b].transpose();
+    const VectorX damping = modal_damping(system, structure, block, C, H.middleCols(range.first, size));
+    const auto count = static_cast<int>(block.square.size());
+    modes.massless += size - count;
+    MatrixX shape = MatrixX::Zero(size, size), projection = MatrixX::Zero(size, size);
+    shape.leftCols(count) = block.shape;
+    projection.topRows(count) = block.shape.transpose() * M;
+    for (int i = 0; i < count; ++i) {
+      const int k = range.first + i;
+      const double square = block.square[i], a = 0.5 * damping[i];
+      modes.square[k] = square;
+      modes.decay[k] = a;
+      if (a > 0) modes.undamped = false;
+      if (square < slow * slow || square - a * a < 1e-6 * square) {
+        modes.special.push_back(k);
+        modes.flexibility[k] = 0;
+      } else {
+        modes.damped[k] = std::sqrt(square - a * a);
+        modes.flexibility[k] = 1 / square;
+      }
+    }
+    modes.static_load.segment(range.first, count) = block.shape.transpose() * system.static_load.segment(range.first, size);
+    for (std::size_t i = 0; i < model.motions.size(); ++i) {
+      modes.motion_load[i].segment(range.first, count) = block.shape.transpose() * model.motion_load[i].segment(range.first, size);
+    }
+    modes.rest.segment(range.first, size) = block.flexibility * system.static_load.segment(range.first, size);
+    shapes.push_back(std::move(shape));
+    projections.push_back(std::move(projection));
+    blocks.push_back(std::move(block));
+  }
+  modes.shape = BlockOperator(shapes, ranges);
+  modes.projection = BlockOperator(projections, ranges);
+  find_contacts(system, blocks, modes);
+  return modes;
+}
+
+}  // namespace nsframe

@@ -1,0 +1,43 @@
+// A linear system in its natural modes, for the scheme `exact`: q = Phi x + F (f + H' lambda), x'' + 2 a x' + w^2 x =
+// Phi'(f + H' lambda) for every mode (theory.md, 130-133). Phi: all modes of finite frequency, Phi' M Phi = 1; F: flexibility of
+// what has no mass, which follows its loads at once.
+#pragma once
+
+#include <vector>
+
+#include "assembly/system.hpp"
+
+namespace nsframe {
+
+// Arrays by mode have `padded` entries. The modes of a structure stand in the places of its free DOFs; places without a mode
+// (massless DOFs) and the padding are modes that nothing moves.
+struct ExactModes {
+  int dofs = 0, padded = 0, massless = 0;
+  VectorX square, decay;              // w^2 [1/s2], a [1/s]
+  VectorX flexibility;                // 1 / w^2 of oscillators, 0 of the special ones
+  VectorX damped;                     // sqrt(w^2 - a^2); 1 for the special ones
+  std::vector<int> special;           // rigid-body, very slow, critically damped or overdamped: not by the formulas of oscillators
+  double highest = 0;                 // largest w + 2 a of the modes that contact can feel [1/s]
+  bool undamped = true;
+  BlockOperator shape, projection;    // Phi, Phi' M
+  VectorX static_load;                // Phi' F_g
+  std::vector<VectorX> motion_load;   // of a unit base acceleration, one a motion
+  VectorX rest;                       // F F_g, free DOFs [m]
+  // contact pairs
+  SparseRows jacobian;                // H
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> gap;  // H Phi, a row a pair
+  VectorX gap_offset;                 // g0 + H rest [m]
+  VectorX rest_gap;                   // H rest
+  MatrixX delassus;                   // H Phi Phi' H' [1/kg]
+  MatrixX compliance;                 // H F H' [m/N]
+  std::vector<bool> compliant;        // pairs reached through massless DOFs: no impulse, a spring in series
+  MatrixX velocity_jump;              // Phi Phi' H', free DOFs x pairs: of a unit impulse
+  MatrixX massless_response;          // F H', free DOFs x pairs
+
+  int pairs() const { return static_cast<int>(compliant.size()); }
+};
+
+// Throws InputError for nonlinear elements and for damping that couples the modes, naming element or structure.
+ExactModes exact_modes(const System& system);
+
+}  // namespace nsframe

@@ -1,0 +1,178 @@
+#include "integrators/exact_propagator.hpp"
+
+#include <cmath>
+
+#include "integrators/exact_kernel.hpp"
+
+namespace nsframe {
+
+namespace {
+
+constexpr std::size_t most_steps = 64;
+
+// Impulse response B and its integrals by their Taylor series: for (w + 2 a) s up to 1.
+StepCoefficients by_series(long double square, long double a, long double s) {
+  StepCoefficients c{0, 0, 0, 0, 0};
+  long double before = 0, r = 1, power = s;  // r: n-th derivative of the impulse response at 0; power: s^n / n!
+  long double slope = 0;                     // B'
+  long double previous_power = 1;
+  for (int n = 1; n <= 30; ++n) {
+    slope += r * previous_power;
+    c.B += r * power;
+    c.L += r * power * s / (n + 1);
+    c.R += r * power * s * s / ((n + 1) * (n + 2));
+    c.Q += r * power * s * s * s / ((n + 1) * (n + 2) * (n + 3));
+    const long double next = -2 * a * r - square * before;
+    before = r;
+    r = next;
+    previous_power = power;
+    power *= s / (n + 1);
+  }
+  c.A = slope + 2 * a * c.B;
+  return c;
+}
+
+}  // namespace
+
+StepCoefficients step_coefficients(long double square, long double a, long double s) {
+  const long double w = std::sqrt(square);
+  if ((w + 2 * a) * s <= 1) return by_series(square, a, s);
+  if (square == 0) {  // drag alone
+    const long double B = -std::expm1(-2 * a * s) / (2 * a), L = (s - B) / (2 * a), R = (s * s / 2 - L) / (2 * a);
+    return {1, B, L, R, (s * s * s / 6 - R) / (2 * a)};
+  }
+  StepCoefficients c{};
+  if (square > a * a) {
+    const long double wd = std::sqrt(square - a * a), fade = std::exp(-a * s), x = wd * s;
+    c.B = fade * (x < 1e-4L ? s * (1 - x * x / 6) : std::sin(x) / wd);
+    c.A = fade * std::cos(x) + a * c.B;
+  } else {
+    const long double p = std::sqrt(a * a - square), x = p * s;
+    if (x < 1) {
+      const long double fade = std::exp(-a * s);
+      c.B = fade * (x < 1e-4L ? s * (1 + x * x / 6) : std::sinh(x) / p);
+      c.A = fade * std::cosh(x) + a * c.B;
+    } else {
+      const long double slow = std::exp(-square / (a + p) * s), fast = std::exp(-(a + p) * s);
+      c.B = (slow - fast) / (2 * p);
+      c.A = (slow + fast) / 2 + a * c.B;
+    }
+  }
+  c.L = (1 - c.A) / square;
+  c.R = (s - c.B - 2 * a * c.L) / square;
+  c.Q = (s * s / 2 - c.L - 2 * a * c.R) / square;
+  return c;
+}
+
+void Propagator::move(const ModalState& from, double s, ModalState& after) const {
+  const ExactModes& m = modes_;
+  after.x.resize(m.padded);
+  after.y.resize(m.padded);
+  propagate_oscillators(m.padded, s, m.square.data(), m.decay.data(), m.damped.data(), from.x.data(), from.y.data(), from.f0.data(),
+                        from.f1.data(), after.x.data(), after.y.data());
+  for (const int k : m.special) {
+    const long double w2 = m.square[k], a = m.decay[k];
+    const StepCoefficients c = step_coefficients(w2, a, s);
+    const long double x = from.x[k], y = from.y[k], p = from.f0[k], q = from.f1[k];
+    after.x[k] = static_cast<double>(c.A * x + c.B * y + c.L * p + c.R * q);
+    after.y[k] = static_cast<double>(-w2 * c.B * x + (c.A - 2 * a * c.B) * y + c.B * p + c.L * q);
+  }
+  after.f0 = from.f0 + s * from.f1;
+  after.f1 = from.f1;
+}
+
+const Propagator::Step& Propagator::find(double s) {
+  for (const Step& step : steps_) {
+    if (step.length == s) return step;
+  }
+  if (steps_.size() < most_steps) steps_.emplace_back();
+  Step& step = steps_[next_ % most_steps];
+  next_ = (next_ + 1) % most_steps;
+  step.length = s;
+  for (VectorX& array : step.arrays) array = VectorX::Zero(modes_.padded);
+  const auto split = [&step](std::size_t high, int k, long double value) {
+    step.arrays[high][k] = static_cast<double>(value);
+    step.arrays[high + 4][k] = static_cast<double>(value - static_cast<long double>(step.arrays[high][k]));
+  };
+  for (int k = 0; k < modes_.padded; ++k) {
+    const long double w2 = modes_.square[k], a = modes_.decay[k];
+    const StepCoefficients c = step_coefficients(w2, a, s);
+    split(0, k, c.A);
+    split(1, k, c.B);
+    split(2, k, -w2 * c.B);
+    split(3, k, c.A - 2 * a * c.B);
+    step.arrays[8][k] = static_cast<double>(c.L);
+    step.arrays[9][k] = static_cast<double>(c.R);
+    step.arrays[10][k] = static_cast<double>(c.B);
+    step.arrays[11][k] = static_cast<double>(c.L);
+  }
+  return step;
+}
+
+void Propagator::step(const ModalState& from, double s, ModalState& after) {
+  const auto& c = find(s).arrays;
+  after.x.resize(modes_.padded);
+  after.y.resize(modes_.padded);
+  const StepArrays arrays{c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),  c[5].data(),
+                          c[6].data(), c[7].data(), c[8].data(), c[9].data(), c[10].data(), c[11].data()};
+  apply_step(modes_.padded, arrays, from.x.data(), from.y.data(), from.f0.data(), from.f1.data(), after.x.data(), after.y.data());
+  after.f0 = from.f0 + s * from.f1;
+  after.f1 = from.f1;
+}
+
+void Propagator::derivatives(const ModalState& state, Eigen::Matrix<double, Eigen::Dynamic, 7>& out) const {
+  out.resize(modes_.padded, 7);
+  out.col(0) = state.x;
+  out.col(1) = state.y;
+  for (int n = 2; n < 7; ++n) {
+    out.col(n) = -2 * modes_.decay.cwiseProduct(out.col(n - 1)) - modes_.square.cwiseProduct(out.col(n - 2));
+    if (n == 2) out.col(n) += state.f0;
+    if (n == 3) out.col(n) += state.f1;
+  }
+}
+
+void Propagator::bound_fourth(const ModalState& state, VectorX& bound) const {
+  // u = x - x_p decays: |u| <= amplitude, and four derivatives multiply the amplitude by w^4
+  const auto w2 = modes_.square.array(), a = modes_.decay.array();
+  const auto flexibility = modes_.flexibility.array();
+  const Eigen::ArrayXd slope = state.f1.array() * flexibility;
+  const Eigen::ArrayXd u = state.x.array() - (state.f0.array() - 2 * a * slope) * flexibility;
+  const Eigen::ArrayXd v = state.y.array() - slope;
+  bound = w2.square() * (u.square() + ((v + a * u) / modes_.damped.array()).square()).sqrt();
+  for (const int k : modes_.special) {
+    const double square = modes_.square[k], w = std::sqrt(square), two_a = 2 * modes_.decay[k];
+    // sqrt(2 E) with E = 1/2 u'^2 + 1/2 w^2 u^2, which never grows, bounds |u'| and w |u|
+    double most = 0;
+    if (square > 0) {
+      const double p = state.f1[k] / square;
+      most = std::hypot(state.y[k] - p, w * (state.x[k] - (state.f0[k] - two_a * p) / square));
+    } else if (two_a > 0) {
+      const double p = state.f1[k] / two_a;
+      most = std::abs(state.y[k] - (state.f0[k] - p) / two_a);
+    }
+    const double second = two_a + w, third = two_a * second + square;
+    bound[k] = (two_a * third + square * second) * most;
+  }
+}
+
+double Propagator::load_work(const ModalState& from, const ModalState& to, double s) const {
+  // int f y dt = [f x] - f1 int x dt, and int x dt from the equation of motion
+  double work = to.f0.dot(to.x) - from.f0.dot(from.x);
+  if (from.f1.isZero(0)) return work;
+  const Eigen::ArrayXd change = (to.y - from.y).array() + 2 * modes_.decay.array() * (to.x - from.x).array();
+  const Eigen::ArrayXd integral = (s * (from.f0.array() + 0.5 * s * from.f1.array()) - change) * modes_.flexibility.array();
+  double correction = (from.f1.array() * integral).sum();
+  for (const int k : modes_.special) {
+    const StepCoefficients c = step_coefficients(modes_.square[k], modes_.decay[k], s);
+    // A = B' + 2 a B
+    correction += from.f1[k] * static_cast<double>((c.B + 2 * modes_.decay[k] * c.L) * from.x[k] + c.L * from.y[k] + c.R * from.f0[k] +
+                                                   c.Q * from.f1[k]);
+  }
+  return work - correction;
+}
+
+double Propagator::strain_energy(const ModalState& state) const {
+  return 0.5 * (modes_.square.array() * state.x.array().square()).sum();
+}
+
+}  // namespace nsframe

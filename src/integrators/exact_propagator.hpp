@@ -1,0 +1,55 @@
+// Motion of modes in closed form under loads that are linear in time (theory.md, 131-132).
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "integrators/exact_modes.hpp"
+
+namespace nsframe {
+
+// Displacements, velocities, loads and their slopes of all modes.
+struct ModalState {
+  VectorX x, y, f0, f1;  // [m sqrt(kg)], [m/s sqrt(kg)], [N/sqrt(kg)], [N/s/sqrt(kg)]
+};
+
+// x+ = A x + B y + L f0 + R f1, y+ = -w^2 B x + (A - 2 a B) y + B f0 + L f1; B is the response to a unit impulse, L, R and Q
+// its first, second and third integrals.
+struct StepCoefficients {
+  long double A, B, L, R, Q;
+};
+// Of one mode with w^2 = square and any damping a, after a time s.
+StepCoefficients step_coefficients(long double square, long double a, long double s);
+
+class Propagator {
+ public:
+  explicit Propagator(const ExactModes& modes) : modes_(modes) {}
+
+  // The state after any time s; the load has moved on. `after` may not be `from`.
+  void move(const ModalState& from, double s, ModalState& after) const;
+  // The same by coefficients that are kept for further steps of that length. `s` is best of few values; these are found
+  // to more digits than double has, so that no energy is lost or gained in millions of steps.
+  void step(const ModalState& from, double s, ModalState& after);
+
+  // Derivatives n = 0..6 of the modal displacements, by columns.
+  void derivatives(const ModalState& state, Eigen::Matrix<double, Eigen::Dynamic, 7>& out) const;
+  // For every mode a bound on |d4 x / dt4| from now on, while the load keeps its slope.
+  void bound_fourth(const ModalState& state, VectorX& bound) const;
+
+  // Work of the loads over a free motion of length s between two states [J].
+  double load_work(const ModalState& from, const ModalState& to, double s) const;
+  // 1/2 w^2 x^2 summed [J].
+  double strain_energy(const ModalState& state) const;
+
+ private:
+  struct Step {
+    double length = -1;
+    std::array<VectorX, 12> arrays;
+  };
+  const Step& find(double s);
+  const ExactModes& modes_;
+  std::vector<Step> steps_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace nsframe

@@ -1,0 +1,207 @@
+#include "integrators/flight.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "integrators/exact_kernel.hpp"
+
+namespace nsframe {
+
+namespace {
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double series_angle = 0.05;  // w s up to which a return of a bounce is found from derivatives
+constexpr int most_halvings = 60;
+
+}  // namespace
+
+void Flight::bound(double length, bool disturbed) {
+  if (disturbed || !bound_holds_ || !contact_->closed.empty()) {
+    propagator_.bound_fourth(*state_, mode_bound_);
+    fourth_ = modes_.gap.cwiseAbs() * mode_bound_;
+    rounding_ = 64 * epsilon * (modes_.gap.cwiseAbs() * state_->x.cwiseAbs() + contact_->constant.cwiseAbs());
+    rate_rounding_ = 64 * epsilon * (modes_.gap.cwiseAbs() * state_->y.cwiseAbs());
+    for (int c = 0; c < modes_.pairs() && !forces_.empty(); ++c) fourth_[c] += sustained_.fourth_bound(forces_, c);
+    bound_holds_ = contact_->closed.empty();
+  }
+  tolerance_ = rounding_ + length * rate_rounding_;
+}
+
+void Flight::add_compliance(double s, VectorX& gap, VectorX& rate) const {
+  for (std::size_t k = 0; k < forces_.pairs.size(); ++k) {
+    const int other = forces_.pairs[k];
+    if (!modes_.compliant[static_cast<std::size_t>(other)]) continue;
+    gap += SustainedContact::value(forces_, k, s) * modes_.compliance.col(other);
+    rate += sustained_.slope(forces_, k, s) * modes_.compliance.col(other);
+  }
+}
+
+void Flight::evaluate(double s, Sample& sample) {
+  sample.time = s;
+  sample.gap.resize(modes_.pairs());
+  sample.rate.resize(modes_.pairs());
+  if (forces_.empty()) {
+    propagator_.move(*state_, s, probe_);
+  } else {
+    sustained_.move(*state_, forces_, s, probe_);
+  }
+  ++evaluations_;
+  multiply_gaps(modes_.padded, modes_.pairs(), modes_.gap.data(), probe_.x.data(), probe_.y.data(), sample.gap.data(), sample.rate.data());
+  sample.gap += contact_->constant;
+  add_compliance(s, sample.gap, sample.rate);
+}
+
+Eigen::Matrix<double, 7, 1> Flight::derivatives(int pair) {
+  if (!have_derivatives_) {
+    propagator_.derivatives(*state_, mode_derivatives_);
+    have_derivatives_ = true;
+  }
+  Eigen::Matrix<double, 7, 1> gap = mode_derivatives_.transpose() * modes_.gap.row(pair).transpose();
+  if (!forces_.empty()) sustained_.add_derivatives(forces_, pair, gap);
+  return gap;
+}
+
+void Flight::find_openings(FlightEvent& event) const {
+  for (std::size_t k = 0; k < forces_.pairs.size(); ++k) {
+    const VectorX b = sustained_.bernstein(forces_, k);
+    const double at = forces_.length * first_negative(b, 1e-11 * b.cwiseAbs().maxCoeff());
+    if (at < event.time) event = {at, FlightEvent::Kind::opens, forces_.pairs[k]};
+  }
+}
+
+// Pairs that touch now: open for certain over the (possibly shortened) flight, or back at zero within it.
+void Flight::follow_touching(FlightEvent& event) {
+  for (int c = 0; c < modes_.pairs(); ++c) {
+    if (skip_[static_cast<std::size_t>(c)] || !contact_->touching[static_cast<std::size_t>(c)]) continue;
+    const Eigen::Matrix<double, 7, 1> d = derivatives(c);
+    const double noise = 16 * epsilon * modes_.gap.row(c).cwiseAbs().dot(state_->y.cwiseAbs());
+    const double rate = d[1] > noise ? d[1] : 0;
+    const double noise2 = 64 * epsilon * mode_derivatives_.col(2).cwiseAbs().dot(modes_.gap.row(c).cwiseAbs().transpose());
+    const double second = std::abs(d[2]) > noise2 ? d[2] : 0;
+    if (rate > 0 && second < 0) {
+      double back = -2 * rate / second;
+      if (back * modes_.highest < series_angle && back <= event.time) {
+        for (int i = 0; i < 20; ++i) {  // Newton on g(s) / s
+          double value = 0, slope = 0;
+          for (int n = 6; n >= 1; --n) {
+            slope = slope * back + value;
+            value = value * back + d[n] / std::tgamma(n + 1.0);
+          }
+          const double change = -value / slope;
+          back += change;
+          if (!(std::abs(change) > 4 * epsilon * back)) break;
+        }
+        if (back > 0 && back <= event.time) {
+          event = {back, FlightEvent::Kind::closes, c};
+          skip_[static_cast<std::size_t>(c)] = true;
+          continue;
+        }
+      }
+    }
+    if (rate == 0 && second <= 0 && !(second == 0 && d[3] > 0)) continue;  // touches without leaving: judged by the tolerance
+    const double open = certain_opening(rate, second, d[3], fourth_[c], event.time);
+    if (open <= 0) continue;
+    skip_[static_cast<std::size_t>(c)] = true;
+    if (open < event.time) event = {open, FlightEvent::Kind::none, -1};
+  }
+}
+
+GapPiece Flight::piece(int pair, const Sample& a, const Sample& b) const {
+  return {b.time - a.time, a.gap[pair], a.rate[pair], b.gap[pair], b.rate[pair], fourth_[pair]};
+}
+
+double Flight::refine(int pair, const Sample& a, const Sample& b) {
+  double low = a.time, high = b.time;
+  const GapPiece whole = piece(pair, a, b);
+  const double error = whole.fourth * std::pow(whole.h, 4) / 384;
+  double at = low + first_fall(whole, whole.start > tolerance_[pair] ? 0 : -0.5 * tolerance_[pair]);
+  if (error <= 0.25 * tolerance_[pair] || whole.start <= 0) return at;
+  Sample sample;
+  for (int i = 0; i < 60; ++i) {
+    if (!(at > low && at < high)) at = 0.5 * (low + high);
+    evaluate(at, sample);
+    const double gap = sample.gap[pair];
+    (gap > 0 ? low : high) = at;
+    const double change = -gap / sample.rate[pair];
+    if (std::abs(gap) <= tolerance_[pair] / 64 || high - low <= 2 * epsilon * high || std::abs(change) <= epsilon * at) break;
+    at += change;
+  }
+  return at;
+}
+
+FlightEvent Flight::search(const Sample& a, const Sample& b, int depth) {
+  bool unsure = false;
+  std::vector<int> closing;
+  for (int c = 0; c < modes_.pairs(); ++c) {
+    if (skip_[static_cast<std::size_t>(c)]) continue;
+    const Verdict verdict = judge(piece(c, a, b), tolerance_[c]);
+    if (verdict == Verdict::closes) closing.push_back(c);
+    if (verdict == Verdict::unsure) unsure = true;
+  }
+  if (unsure && depth < most_halvings) {
+    Sample middle;
+    evaluate(0.5 * (a.time + b.time), middle);
+    const FlightEvent first = search(a, middle, depth + 1);
+    return first.kind != FlightEvent::Kind::none ? first : search(middle, b, depth + 1);
+  }
+  FlightEvent event{b.time, FlightEvent::Kind::none, -1};
+  for (const int c : closing) {
+    const double at = refine(c, a, b);
+    if (at <= event.time) event = {at, FlightEvent::Kind::closes, c};
+  }
+  return event;
+}
+
+FlightEvent Flight::find(const ModalState& state, const ContactState& contact, double length, bool regular, bool disturbed) {
+  state_ = &state;
+  contact_ = &contact;
+  have_derivatives_ = false;
+  const int pairs = modes_.pairs();
+  FlightEvent event{length, FlightEvent::Kind::none, -1};
+  if (pairs == 0) {
+    regular ? propagator_.step(state, length, end_) : propagator_.move(state, length, end_);
+    return event;
+  }
+  forces_.pairs.clear();
+  skip_.assign(static_cast<std::size_t>(pairs), false);
+  if (!contact.closed.empty()) {
+    event.time = std::min(length, sustained_.panel());
+    forces_ = sustained_.solve(state, contact.constant, contact.closed);
+    for (const int c : contact.closed) skip_[static_cast<std::size_t>(c)] = true;
+    find_openings(event);
+  }
+  bound(event.time, disturbed);
+  follow_touching(event);
+  Sample start{0, VectorX(pairs), VectorX(pairs)}, finish{event.time, VectorX(pairs), VectorX(pairs)};
+  multiply_gaps(modes_.padded, pairs, modes_.gap.data(), state.x.data(), state.y.data(), start.gap.data(), start.rate.data());
+  start.gap += contact.constant;
+  add_compliance(0, start.gap, start.rate);
+  for (int c = 0; c < pairs; ++c) {
+    if (contact.touching[static_cast<std::size_t>(c)]) start.gap[c] = 0;
+  }
+  const auto move_to = [&](double s) {
+    if (!forces_.empty()) {
+      sustained_.move(state, forces_, s, end_);
+    } else if (regular && s == length) {
+      propagator_.step(state, s, end_);
+    } else {
+      propagator_.move(state, s, end_);
+    }
+    multiply_gaps(modes_.padded, pairs, modes_.gap.data(), end_.x.data(), end_.y.data(), finish.gap.data(), finish.rate.data());
+    finish.gap += contact.constant;
+    add_compliance(s, finish.gap, finish.rate);
+    finish.time = s;
+  };
+  move_to(event.time);
+  const FlightEvent earlier = search(start, finish, 0);
+  if (earlier.kind != FlightEvent::Kind::none) {
+    event = earlier;
+    move_to(event.time);
+  }
+  end_gap_ = finish.gap;
+  end_rate_ = finish.rate;
+  return event;
+}
+
+}  // namespace nsframe

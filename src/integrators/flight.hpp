@@ -1,0 +1,75 @@
+// A motion of the scheme `exact` between two events, without impulses: which gap closes first, or which sustained contact opens
+// first, with a proof that nothing was skipped (theory.md, 134, 138).
+#pragma once
+
+#include "integrators/gap_roots.hpp"
+#include "integrators/sustained_contact.hpp"
+
+namespace nsframe {
+
+struct FlightEvent {
+  enum class Kind { none, closes, opens };
+  double time = 0;  // since the start of the flight [s]
+  Kind kind = Kind::none;
+  int pair = -1;
+};
+
+// What contact is at the start of a flight.
+struct ContactState {
+  std::vector<int> closed;       // pairs in sustained contact, ascending
+  std::vector<bool> touching;    // open pairs whose gap is zero now
+  VectorX constant;              // g0, what static loads do without mass, and rounding taken out [m]
+};
+
+class Flight {
+ public:
+  Flight(const ExactModes& modes, Propagator& propagator, SustainedContact& sustained)
+      : modes_(modes), propagator_(propagator), sustained_(sustained) {}
+
+  // The first event after `state` within `length`, and the state there in end(). Without one, the flight may also be cut
+  // short: `time` says where. `regular`: the length is one of few that come again and again. `disturbed`: impulses or
+  // loads have changed the motion since the last flight ended.
+  FlightEvent find(const ModalState& state, const ContactState& contact, double length, bool regular, bool disturbed);
+
+  ModalState& end() { return end_; }
+  const VectorX& end_gap() const { return end_gap_; }
+  const VectorX& end_rate() const { return end_rate_; }
+  const ContactForces& forces() const { return forces_; }
+  // Gap rounding counts as zero up to here [m].
+  double tolerance(int pair) const { return tolerance_[pair]; }
+  long evaluations() const { return evaluations_; }
+
+  // Derivatives n = 0..6 of the gap of a pair at the start of the flight; n = 0 without the constant.
+  Eigen::Matrix<double, 7, 1> derivatives(int pair);
+
+ private:
+  struct Sample {
+    double time = 0;
+    VectorX gap, rate;
+  };
+  void bound(double length, bool disturbed);
+  void evaluate(double s, Sample& sample);
+  void add_compliance(double s, VectorX& gap, VectorX& rate) const;
+  void find_openings(FlightEvent& event) const;
+  void follow_touching(FlightEvent& event);
+  // First crossing between two samples; time negative when there is none.
+  FlightEvent search(const Sample& a, const Sample& b, int depth);
+  GapPiece piece(int pair, const Sample& a, const Sample& b) const;
+  double refine(int pair, const Sample& a, const Sample& b);
+
+  const ExactModes& modes_;
+  Propagator& propagator_;
+  SustainedContact& sustained_;
+  const ModalState* state_ = nullptr;
+  const ContactState* contact_ = nullptr;
+  ContactForces forces_;
+  ModalState end_, probe_;
+  VectorX end_gap_, end_rate_, start_gap_, start_rate_, fourth_, tolerance_, rounding_, rate_rounding_, mode_bound_;
+  std::vector<bool> skip_;        // closed, or certain to stay open
+  Eigen::Matrix<double, Eigen::Dynamic, 7> mode_derivatives_;
+  bool have_derivatives_ = false;
+  bool bound_holds_ = false;
+  long evaluations_ = 0;
+};
+
+}  // namespace nsframe
