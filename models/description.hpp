@@ -164,6 +164,13 @@ struct StructureDescription {
   std::vector<SlabDescription> slabs;
   DampingDescription damping;
   std::vector<InitialDescription> initial_displacements, initial_velocities;
+
+  StructureDescription();
+  StructureDescription(const StructureDescription&);
+  StructureDescription(StructureDescription&&) noexcept;
+  StructureDescription& operator=(const StructureDescription&);
+  StructureDescription& operator=(StructureDescription&&) noexcept;
+  ~StructureDescription();
 };
 
 enum class ContactKind {
@@ -207,6 +214,13 @@ struct ModelDescription {
   std::vector<MotionDescription> motions;
   GravityDescription gravity;
   std::vector<StageDescription> stages;  // static, in their order, after gravity and before the motions
+
+  ModelDescription();
+  ModelDescription(const ModelDescription&);
+  ModelDescription(ModelDescription&&) noexcept;
+  ModelDescription& operator=(const ModelDescription&);
+  ModelDescription& operator=(ModelDescription&&) noexcept;
+  ~ModelDescription();
 };
 
 }  // namespace nsframe

@@ -1,11 +1,11 @@
 #include "integrators/buckling.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Spectra/GenEigsSolver.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "base/errors.hpp"
 
 namespace nsframe {

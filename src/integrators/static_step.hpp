@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "assembly/system.hpp"
+#include "base/decompositions.hpp"
 #include "integrators/nonlinear_step.hpp"
 
 namespace nsframe {

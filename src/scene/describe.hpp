@@ -7,6 +7,7 @@
 #include "base/diagnostics.hpp"
 #include "models/materials.hpp"
 #include "scene/scene.hpp"
+#include "scene/tables.hpp"
 
 namespace nsframe {
 

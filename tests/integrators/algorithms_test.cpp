@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "base/errors.hpp"
 #include "integrators/algorithms.hpp"
 

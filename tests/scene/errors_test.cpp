@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "scene/sections/sections.hpp"
 #include "scene_text.hpp"
 
 using namespace nsframe;

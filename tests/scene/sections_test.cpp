@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "elements/fiber_cutting.hpp"
 #include "scene_text.hpp"
 
 using namespace nsframe;
