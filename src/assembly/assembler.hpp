@@ -35,6 +35,11 @@ class Assembler {
   // dP/dq at the last internal_force(); same pattern always.
   const SparseMatrix& tangent() const { return tangent_; }
 
+  // Half the change of the tangent from `displacement` - `step` to + `step` while the material keeps its tangents at
+  // `displacement`; overwrites the trial history.
+  SparseMatrix geometric_change(const VectorX& displacement, const VectorX& step, const VectorX& committed_history,
+                                VectorX& trial_history) const;
+
   // The element whose nodes carry the largest part of `residual` (free DOFs), for messages.
   std::string worst_element(const VectorX& residual) const;
 
