@@ -123,7 +123,7 @@ class MoreauJean::Step : public NonlinearStep {
   const VectorX& residual() const override { return scheme_.active_.empty() ? scheme_.free_residual_ : scheme_.residual_; }
   double error() const override { return result_.residual / scheme_.options_.newton_tolerance; }
   void factor(Tangent which) override {
-    const bool initial = which == Tangent::initial && system_.initial_stiffness.nonZeros() == system_.assembler.tangent().nonZeros();
+    const bool initial = which == Tangent::initial;
     scheme_.matrix_.factor(system_, initial ? system_.initial_stiffness : system_.assembler.tangent(), scheme_.options_.theta * h_);
   }
   void solve(const VectorX& rhs, VectorX& x) override { scheme_.matrix_.solve(rhs, x); }
