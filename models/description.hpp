@@ -24,6 +24,7 @@ struct MaterialDescription {
   std::string name;
   Location at;
   UniaxialLaw law;
+  bool faulty = false;  // an error in it was reported already
 };
 
 struct NodeDescription {

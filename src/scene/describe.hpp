@@ -15,7 +15,7 @@ namespace nsframe {
 // and reads the records.
 void describe_model(Scene& scene, Diagnostics& diagnostics);
 
-SectionDescription describe(const SectionTable& section, const Materials& materials);
+SectionDescription describe(const SectionTable& section, const std::vector<MaterialDescription>& materials);
 StructureDescription describe(const ExplicitStructure& structure);
 StructureDescription describe(const StoryFrameTable& frame);
 DampingDescription describe(const DampingTable& damping);

@@ -31,12 +31,14 @@ struct MaterialTable {
   std::string name;
   Location at;
   UniaxialLaw law;
+  bool faulty = false;  // an error in it was reported
 };
 
 struct SectionTable {
   std::string name;
   Location at;
   SectionKind kind;
+  bool faulty = false;  // an error in it was reported
 };
 
 // --- explicit structures
