@@ -260,9 +260,8 @@ void CorotationalBar::to_global(const BeamFrame& frame, const Vector12& displace
 
 ElementPose CorotationalBar::pose(const BeamFrame& frame, const Vector12& displacement, const double*) const {
   const Chord chord(frame, displacement.head<3>(), displacement.segment<3>(6));
-  const Quaternion turn = Quaternion::FromTwoVectors(frame.axes.row(0).transpose(), chord.vector);
   ElementPose pose;
-  pose.axes = frame.axes * turn.toRotationMatrix().transpose();
+  pose.axes = frame.axes * shortest_rotation(frame.axes.row(0), chord.vector / chord.length).toRotationMatrix().transpose();
   return pose;
 }
 

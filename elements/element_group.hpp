@@ -109,6 +109,14 @@ class ElementGroup {
     return Vector12::Zero();
   }
 
+  // Half the change of the tangent from `displacement` - `step` to + `step` by geometry and forces alone, the material
+  // keeping its tangents at `displacement`: for linear buckling. `trial` is overwritten.
+  virtual Matrix12 geometric_change(int element, const Vector12& displacement, const Vector12& step,
+                                    const double* committed, double* trial) const {
+    (void)element; (void)displacement; (void)step; (void)committed; (void)trial;
+    return Matrix12::Zero();
+  }
+
   // Constant viscous damping matrix (12x12), global axes [N s/m]; zero for most.
   virtual Matrix12 damping(int element) const { (void)element; return Matrix12::Zero(); }
 

@@ -142,14 +142,20 @@ AreaMoments spandrel(double r, const Vector2& corner, const Vector2& towards) {
   return out;
 }
 
+namespace {
+// The positive root of a positive definite matrix of two rows, by the theorem of Cayley and Hamilton.
+Matrix2 square_root(const Matrix2& A) {
+  const double root_of_determinant = std::sqrt(A.determinant());
+  return (A + root_of_determinant * Matrix2::Identity()) / std::sqrt(A.trace() + 2 * root_of_determinant);
+}
+}  // namespace
+
 void match_moments(Fibers& fibers, const AreaMoments& target) {
   const AreaMoments from = moments(fibers);
   const double scale = target.area / from.area;
-  const Eigen::SelfAdjointEigenSolver<Matrix2> present(scale * from.second);
   // The symmetric L with L A L = B: A^(-1/2) (A^(1/2) B A^(1/2))^(1/2) A^(-1/2), near I when A is near B.
-  const Matrix2 root = present.operatorSqrt(), inverse = present.operatorInverseSqrt();
-  const Eigen::SelfAdjointEigenSolver<Matrix2> middle(root * target.second * root);
-  const Matrix2 map = inverse * middle.operatorSqrt() * inverse;
+  const Matrix2 root = square_root(scale * from.second), inverse = root.inverse();
+  const Matrix2 map = inverse * square_root(root * target.second * root) * inverse;
   for (FiberDescription& f : fibers) {
     const Vector2 at = target.centroid + map * (Vector2(f.y, f.z) - from.centroid);
     f.y = at.x();

@@ -45,6 +45,16 @@ constexpr int max_line_search = 30;
 // error of about the square), and relative to the forces themselves (rounding).
 constexpr double change_tolerance = 1e-4;
 constexpr double force_tolerance = 1e-11;
+constexpr double least_stiffness = 1e-10;  // of the elastic one, of a section all of whose fibers flow
+
+// Inverse of a section's tangent. A section that flows as a whole has none: its deformation follows from the other
+// sections and the member's by a stiffness too small to change a force.
+Matrix3 section_flexibility(const FiberSection& section, const Matrix3& tangent) {
+  const Vector3 elastic = section.virgin.tangent.diagonal();
+  const Matrix3 flexibility = tangent.inverse();
+  if (flexibility.diagonal().cwiseProduct(elastic).cwiseAbs().maxCoeff() < 1 / least_stiffness) return flexibility;
+  return (tangent + least_stiffness * Matrix3(elastic.asDiagonal())).inverse();
+}
 
 }  // namespace
 

@@ -44,6 +44,27 @@ void Members::respond(int element, const Vector12& displacement, const double* c
   }
 }
 
+Matrix12 Members::geometric_change(int element, const Vector12& displacement, const Vector12& step,
+                                   const double* committed, double* trial) const {
+  const BeamFrame& frame = this->frame(element);
+  const int own = own_begin(element);
+  const double part = load_part(element, trial);
+  const MemberLoad* const acting = load(element);
+  Vector6 basic_force;
+  Matrix6 basic_tangent;
+  const Vector6 deformation = geometry_.deformation(frame, displacement, committed, trial);
+  respond_basic(element, deformation, part, geometry_.rounding(displacement), committed + own, trial + own, basic_force, basic_tangent);
+  const auto tangent_at = [&](const Vector12& u) {
+    const Vector6 change = geometry_.deformation(frame, u, committed, trial) - deformation;
+    Vector12 force;
+    Matrix12 tangent;
+    geometry_.to_global(frame, u, committed, basic_force + basic_tangent * change, basic_tangent, force, &tangent);
+    if (acting && !acting->empty()) geometry_.add_load(frame, *acting, part, u, force, &tangent);
+    return tangent;
+  };
+  return 0.5 * (tangent_at(displacement + step) - tangent_at(displacement - step));
+}
+
 ElementShape Members::member_shape(int element, const SectionOutline* outline) const {
   const BeamFrame& frame = this->frame(element);
   return {outline != nullptr, geometry_.finite(), frame.axes, frame.length, frame.offset, outline};

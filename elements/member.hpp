@@ -19,6 +19,8 @@ class Members : public ElementGroup {
   void start_step(int element, const double* committed, double* trial) const final;
   void respond(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
                Matrix12* tangent) const final;
+  Matrix12 geometric_change(int element, const Vector12& displacement, const Vector12& step, const double* committed,
+                            double* trial) const final;
   ElementPose pose(int element, const Vector12& displacement, const double* history) const final;
   std::vector<SectionResult> sections(int element, const Vector12& displacement, const double* history) const final;
 

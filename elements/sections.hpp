@@ -47,6 +47,7 @@ struct SectionDescription {
   Location at;
   std::variant<ElasticSection, FiberSectionDescription> kind;
   SectionOutline outline;
+  bool faulty = false;  // an error in it, or in one of its materials, was reported already
 };
 
 }  // namespace nsframe

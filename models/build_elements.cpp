@@ -81,14 +81,17 @@ std::optional<UniaxialLaw> added_law(const SectionDescription& section, const Re
 Library::Section resolve(const SectionDescription& section, const Materials& materials, double screening,
                          Diagnostics& diagnostics) {
   Library::Section resolved{&section, {}, nullptr, {}};
+  const auto error = [&](const std::string& what) {
+    if (!section.faulty) diagnostics.error(section.at, fmt::format("section '{}'{}", section.name, what));
+  };
   if (const auto* elastic = std::get_if<ElasticSection>(&section.kind)) {
     resolved.elastic = *elastic;
     for (const auto& [value, name] : {std::pair{elastic->E, "E"}, {elastic->G, "G"}, {elastic->A, "A"},
                                       {elastic->Iz, "Iz"}, {elastic->Iy, "Iy"}, {elastic->J, "J"}}) {
-      if (!(value > 0)) diagnostics.error(section.at, fmt::format("section '{}': {} must be positive", section.name, name));
+      if (!(value > 0)) error(fmt::format(": {} must be positive", name));
     }
     for (const auto& [value, name] : {std::pair{elastic->Ay, "Ay"}, {elastic->Az, "Az"}}) {
-      if (!(value >= 0)) diagnostics.error(section.at, fmt::format("section '{}': {} must not be negative", section.name, name));
+      if (!(value >= 0)) error(fmt::format(": {} must not be negative", name));
     }
     resolved.is_elastic = true;
     resolved.fibers = elastic_fibers(*elastic);
@@ -117,21 +120,20 @@ Library::Section resolve(const SectionDescription& section, const Materials& mat
       unknown = fiber.material.name;
       continue;
     }
-    if (!(fiber.area > 0)) diagnostics.error(section.at, fmt::format("section '{}': a fiber's area must be positive", section.name));
+    if (!(fiber.area > 0)) error(": a fiber's area must be positive");
     fibers.push_back({fiber.y, fiber.z, fiber.displaced ? -fiber.area : fiber.area, law->second, fiber.material.name});
   }
-  if (description.fibers.empty()) diagnostics.error(section.at, fmt::format("section '{}' has no fibers", section.name));
+  if (description.fibers.empty()) error(" has no fibers");
   AddedLaws added;
   for (const auto& [law, reference] : {std::pair{0, description.shear_y}, {1, description.shear_z}, {2, description.torsion}}) {
     if (reference) added[static_cast<std::size_t>(law)] = added_law(section, *reference, materials, diagnostics);
   }
-  if (!description.torsion && !(description.torsion_stiffness > 0)) {
-    diagnostics.error(section.at, fmt::format("section '{}': the torsion stiffness GJ must be positive", section.name));
-  }
+  // without its material there is no G
+  if (!description.torsion && !(description.torsion_stiffness > 0) && unknown.empty()) error(": the torsion stiffness GJ must be positive");
   auto built = std::make_shared<FiberSection>(fibers, description.torsion_stiffness, std::move(added), screening);
   resolved.elastic = elastic_constants(*built);
   if (const ElasticSection& e = resolved.elastic; e.A < 0 || e.Iz < 0 || e.Iy < 0) {
-    diagnostics.error(section.at, fmt::format("section '{}': more is displaced than there is", section.name));
+    error(": more is displaced than there is");
   }
   resolved.mass = mass_section(fibers);
   resolved.fibers = std::move(built);

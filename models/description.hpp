@@ -24,6 +24,7 @@ struct MaterialDescription {
   std::string name;
   Location at;
   UniaxialLaw law;
+  bool faulty = false;  // an error in it was reported already
 };
 
 struct NodeDescription {
@@ -167,6 +168,13 @@ struct StructureDescription {
   std::vector<SlabDescription> slabs;
   DampingDescription damping;
   std::vector<InitialDescription> initial_displacements, initial_velocities;
+
+  StructureDescription();
+  StructureDescription(const StructureDescription&);
+  StructureDescription(StructureDescription&&) noexcept;
+  StructureDescription& operator=(const StructureDescription&);
+  StructureDescription& operator=(StructureDescription&&) noexcept;
+  ~StructureDescription();
 };
 
 enum class ContactKind {
@@ -211,6 +219,13 @@ struct ModelDescription {
   GravityDescription gravity;
   double screening = 0;  // relative error of stress up to which a virgin fiber counts as linear (elements/screening.hpp)
   std::vector<StageDescription> stages;  // static, in their order, after gravity and before the motions
+
+  ModelDescription();
+  ModelDescription(const ModelDescription&);
+  ModelDescription(ModelDescription&&) noexcept;
+  ModelDescription& operator=(const ModelDescription&);
+  ModelDescription& operator=(ModelDescription&&) noexcept;
+  ~ModelDescription();
 };
 
 }  // namespace nsframe

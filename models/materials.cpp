@@ -14,7 +14,7 @@ class Resolver {
   Resolver(const std::vector<MaterialDescription>& materials, Diagnostics& diagnostics) : diagnostics_(diagnostics) {
     for (const MaterialDescription& material : materials) {
       names_.push_back(material.name);
-      if (!described_.emplace(material.name, &material).second)
+      if (!described_.emplace(material.name, &material).second && !material.faulty)
         diagnostics.error(material.at, fmt::format("material '{}' is defined twice", material.name));
     }
   }
@@ -23,6 +23,9 @@ class Resolver {
     for (const auto& [name, material] : described_) resolve(name);
     return std::move(resolved_);
   }
+  bool failed(const MaterialDescription& material) const {
+    return failed_.contains(material.name) || described_.at(material.name) != &material;
+  }
 
  private:
   // The law, its inner laws resolved before it.
@@ -30,9 +33,9 @@ class Resolver {
     if (const auto found = resolved_.find(name); found != resolved_.end()) return found->second;
     const MaterialDescription& material = *described_.at(name);
     UniaxialLaw law = material.law;
-    bool valid = true;
+    bool valid = !material.faulty;
     open_.push_back(name);
-    for_each_inner(law, [&](InnerLaw& inner) { valid = find(inner) && valid; });
+    if (valid) for_each_inner(law, [&](InnerLaw& inner) { valid = find(inner) && valid; });
     open_.pop_back();
     valid = valid && is_acceptable(law, material);
     if (!valid) failed_.insert(name);
@@ -92,6 +95,15 @@ class Resolver {
 
 Materials resolve_materials(const std::vector<MaterialDescription>& materials, Diagnostics& diagnostics) {
   return Resolver(materials, diagnostics).resolve();
+}
+
+void resolve_in_place(std::vector<MaterialDescription>& materials, Diagnostics& diagnostics) {
+  Resolver resolver(materials, diagnostics);
+  const Materials laws = resolver.resolve();
+  for (MaterialDescription& material : materials) {
+    material.law = laws.at(material.name);
+    material.faulty = resolver.failed(material);
+  }
 }
 
 }  // namespace nsframe

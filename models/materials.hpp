@@ -15,4 +15,7 @@ using Materials = std::map<std::string, UniaxialLaw>;
 // A law with an error inside stands as a placeholder, so that its name stays known.
 Materials resolve_materials(const std::vector<MaterialDescription>& materials, Diagnostics& diagnostics);
 
+// The same in the descriptions themselves; laws with an error are marked, and not reported again.
+void resolve_in_place(std::vector<MaterialDescription>& materials, Diagnostics& diagnostics);
+
 }  // namespace nsframe

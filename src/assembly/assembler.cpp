@@ -228,6 +228,21 @@ void Assembler::add_rate_tangent(double factor, SparseMatrix& stiffness) const {
   for (std::size_t k = 0; k < rate_values_.size(); ++k) stiffness.valuePtr()[k] += factor * rate_values_[k];
 }
 
+SparseMatrix Assembler::geometric_change(const VectorX& displacement, const VectorX& step, const VectorX& committed,
+                                         VectorX& trial) const {
+  const VectorX full = model_.dofs.transformation * displacement, full_step = model_.dofs.transformation * step;
+  SparseMatrix change = tangent_;
+  std::fill_n(change.valuePtr(), change.nonZeros(), 0.0);
+  for (const Placed& placed : nonlinear_) {
+    scatter(placed,
+            placed.group->geometric_change(placed.element, gather(*placed.group, placed.element, full),
+                                           gather(*placed.group, placed.element, full_step),
+                                           committed.data() + placed.history_begin, trial.data() + placed.history_begin),
+            change.valuePtr());
+  }
+  return change;
+}
+
 std::string Assembler::worst_element(const VectorX& residual) const {
   const VectorX full = model_.dofs.transformation * residual;
   double largest = -1;

@@ -49,6 +49,11 @@ class Assembler {
   // Adds the derivative to a matrix of the pattern of tangent().
   void add_rate_tangent(double factor, SparseMatrix& stiffness) const;
 
+  // Half the change of the tangent from `displacement` - `step` to + `step` while the material keeps its tangents at
+  // `displacement`; overwrites the trial history.
+  SparseMatrix geometric_change(const VectorX& displacement, const VectorX& step, const VectorX& committed_history,
+                                VectorX& trial_history) const;
+
   // The element whose nodes carry the largest part of `residual` (free DOFs), for messages.
   std::string worst_element(const VectorX& residual) const;
 

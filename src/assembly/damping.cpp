@@ -61,7 +61,9 @@ std::vector<StructureModes> structure_modes(const Model& model, const SparseMatr
       all.push_back(std::move(result));
       continue;
     }
-    const SparseMatrix K = extract_block(stiffness, range), M = extract_block(model.mass, range);
+    // symmetrised: the part of P-Delta's tangent that isn't symmetric doesn't change frequencies to first order
+    const SparseMatrix unsymmetric = extract_block(stiffness, range), M = extract_block(model.mass, range);
+    const SparseMatrix K = 0.5 * (unsymmetric + SparseMatrix(unsymmetric.transpose()));
     int wanted = std::max(count, static_cast<int>(structure.damping.ratios.size()));
     for (;; wanted *= 2) {
       result.modes = solve_modes(K, M, std::min(wanted, range.size()));

@@ -29,7 +29,7 @@ class System {
   Assembler assembler;
   Damping damping;
   VectorX static_load;              // acts throughout [N]
-  SparseMatrix initial_stiffness;   // tangent at the first rest, for algorithms that keep it; may be empty
+  SparseMatrix initial_stiffness;   // tangent at the first rest, for algorithms that keep it
 
   const Contacts& contacts() const { return model.contacts; }
   const SparseMatrix& mass() const { return model.mass; }

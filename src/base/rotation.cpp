@@ -61,6 +61,17 @@ Vector3 rotation_logarithm(const Matrix3& rotation) {
   return 2 * std::atan2(sine, q.w()) / sine * q.vec();
 }
 
+Quaternion shortest_rotation(const Vector3& a, const Vector3& b) {
+  const double cosine = a.dot(b);
+  Quaternion half_turn(0, 0, 0, 0);
+  if (cosine < -1 + 1e-12) {
+    half_turn.vec() = a.unitOrthogonal();
+    return half_turn;
+  }
+  const Vector3 axis = a.cross(b);
+  return Quaternion(1 + cosine, axis.x(), axis.y(), axis.z()).normalized();
+}
+
 Matrix3 spin_by_vector(const Vector3& vector) {
   const double x = vector.norm();
   const Matrix3 S = skew(vector);

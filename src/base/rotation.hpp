@@ -15,6 +15,9 @@ Quaternion rotation_exponential(const Vector3& vector);
 // The rotation vector of least length, at most pi.
 Vector3 rotation_logarithm(const Matrix3& rotation);
 
+// The rotation of least angle that takes unit vector a to b.
+Quaternion shortest_rotation(const Vector3& a, const Vector3& b);
+
 // Ts(v): spin of exp(v) from the rate of v, w = Ts dv.
 Matrix3 spin_by_vector(const Vector3& vector);
 // Its inverse, dv = Ts^-1 w; exists for |v| < 2 pi.

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "base/decompositions.hpp"
+
 namespace nsframe {
 
 double complementarity_error(const ContactProblem& problem, const VectorX& impulse) {
@@ -52,8 +54,8 @@ VectorX solve_on(const std::vector<Eigen::Index>& active, const MatrixX& W, cons
   if (active.size() == 1) return VectorX::Constant(1, -rhs[active[0]] / W(active[0], active[0]));
   Eigen::CompleteOrthogonalDecomposition<MatrixX> factor;
   factor.setThreshold(1e-12);
-  factor.compute(W(active, active));
-  return factor.solve(-rhs(active));
+  factor.compute(MatrixX(W(active, active)));
+  return factor.solve(VectorX(-rhs(active)));
 }
 
 }  // namespace

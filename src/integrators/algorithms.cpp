@@ -21,6 +21,7 @@ const std::map<std::string, std::function<std::unique_ptr<Algorithm>()>>& regist
       {"line-search", make_line_search},
       {"krylov", make_krylov},
       {"broyden", make_broyden},
+      {"bfgs", make_bfgs},
   };
   return algorithms;
 }

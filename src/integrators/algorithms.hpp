@@ -51,5 +51,6 @@ std::unique_ptr<Algorithm> make_modified_newton(Tangent which);
 std::unique_ptr<Algorithm> make_line_search();
 std::unique_ptr<Algorithm> make_krylov();
 std::unique_ptr<Algorithm> make_broyden();
+std::unique_ptr<Algorithm> make_bfgs();
 
 }  // namespace nsframe

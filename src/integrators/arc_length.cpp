@@ -15,6 +15,7 @@ namespace nsframe {
 namespace {
 
 constexpr double wanted_iterations = 5;
+constexpr double turned_back = -0.99;  // cosine to the last increment, beyond which it is the way back
 constexpr double longest = 4, shortest = 1.0 / 4096;  // arcs, relative to the first
 
 class ArcLength : public StaticControl {
@@ -68,7 +69,8 @@ class ArcLength : public StaticControl {
     const double factor = found.factor - committed.factor;
     if (previous_arc_ > 0) {
       const double along = change.dot(weight_.cwiseProduct(previous_change_)) + psi_ * psi_ * factor * previous_factor_;
-      if (along < -0.9 * length(change, factor) * previous_arc_) {
+      if (along < turned_back * length(change, factor) * previous_arc_) {  // the other root: a shorter arc
+        if (retreat()) return false;
         complaint_ = fmt::format("the path turns back on itself at load factor {:.6g}", committed.factor);
         return false;
       }

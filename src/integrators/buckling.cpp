@@ -1,11 +1,11 @@
 #include "integrators/buckling.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <Spectra/GenEigsSolver.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "base/errors.hpp"
 
 namespace nsframe {
@@ -24,13 +24,6 @@ double extent(const Model& model) {
     high = high.cwiseMax(place);
   }
   return std::max((high - low).maxCoeff(), 1e-3);
-}
-
-SparseMatrix tangent_at(System& system, const State& state, const VectorX& displacement) {
-  VectorX history = state.history, force;
-  system.assembler.start_step(state.history, history);
-  system.assembler.internal_force(displacement, state.history, history, force);
-  return system.assembler.tangent();
 }
 
 // x = -K^-1 K_g x, for Spectra.
@@ -87,7 +80,10 @@ void require_stability(const SparseMatrix& K, bool symmetric) {
 }  // namespace
 
 std::vector<BucklingMode> buckling_modes(System& system, const State& state, const VectorX& pattern, int count) {
-  const SparseMatrix K = tangent_at(system, state, state.displacement);
+  VectorX history = state.history, force;
+  system.assembler.start_step(state.history, history);
+  system.assembler.internal_force(state.displacement, state.history, history, force);
+  const SparseMatrix K = system.assembler.tangent();
   require_stability(K, system.assembler.symmetric());
   Eigen::SparseLU<SparseMatrix> factor(K);
   if (factor.info() != Eigen::Success) throw ConvergenceError("the stiffness is singular under the constant loads");
@@ -95,9 +91,9 @@ std::vector<BucklingMode> buckling_modes(System& system, const State& state, con
   const double size = response.lpNorm<Eigen::Infinity>();
   if (!(size > 0)) return {};
   const double change = relative_change * extent(system.model) / size;
-  SparseMatrix geometric = tangent_at(system, state, state.displacement + change * response);
-  geometric -= tangent_at(system, state, state.displacement - change * response);
-  geometric *= 1 / (2 * change);
+  system.assembler.start_step(state.history, history);
+  SparseMatrix geometric = system.assembler.geometric_change(state.displacement, change * response, state.history, history);
+  geometric *= 1 / change;
   const Pairs pairs = eigenpairs(K, geometric, factor, count);
   const double largest = pairs.values.cwiseAbs().maxCoeff();
   std::vector<BucklingMode> modes;

@@ -1,7 +1,7 @@
 // Linear buckling: load factors at which a structure under constant loads loses its stability as one more load pattern
 // grows, (K + lambda K_g) phi = 0 (theory.md, 94). K is the tangent under the constant loads, K_g its derivative along the
-// linear response to the pattern. That derivative holds all that geometry does (P-Delta, corotational), exactly and without
-// symmetrising, and also what laws do whose tangent changes with strain.
+// linear response to the pattern, with constant tangents of the laws. That derivative holds all that geometry does
+// (P-Delta, corotational), exactly and without symmetrising.
 #pragma once
 
 #include <vector>

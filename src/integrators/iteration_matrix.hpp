@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "assembly/system.hpp"
+#include "base/decompositions.hpp"
 #include "models/snapshot.hpp"
 
 namespace nsframe {

@@ -3,6 +3,7 @@
 // their differences what the tangent has become; the part of f in their span is corrected by what was seen there.
 #include <utility>
 
+#include "base/decompositions.hpp"
 #include "integrators/algorithms.hpp"
 
 namespace nsframe {

@@ -149,7 +149,7 @@ class MoreauJean::Step : public NonlinearStep {
   void factor(Tangent which) override {
     if (which == Tangent::current && !system_.assembler.tangent_is_current()) evaluate(true);
     factored_ = true;
-    const bool initial = which == Tangent::initial && system_.initial_stiffness.nonZeros() == system_.assembler.tangent().nonZeros();
+    const bool initial = which == Tangent::initial;
     const SparseMatrix& K = initial ? system_.initial_stiffness : system_.assembler.tangent();
     const double theta = scheme_.options_.theta;
     if (!system_.assembler.rate_dependent()) return scheme_.matrix_.factor(system_, K, theta * h_);

@@ -19,6 +19,7 @@ State virgin_state(System& system) {
   State trial = state;
   system.assembler.start_step(state.history, trial.history);
   system.assembler.internal_force(state.displacement, state.history, trial.history, state.internal_force);
+  if (system.initial_stiffness.rows() == 0) system.initial_stiffness = system.assembler.tangent();
   return state;
 }
 

@@ -28,6 +28,11 @@ VectorX response_to(System& system, const VectorX& pattern, const StaticPoint& s
   return x.head(pattern.size());
 }
 
+// Under load control only its distance tells the next equilibrium of a path from another one, beyond a limit point that the
+// load cannot pass: how many times as far as the last increment leads. What lies so far on the path itself, where much
+// yields at once, is found by Newton's method or by shorter steps.
+constexpr double farthest = 30;
+
 class StageRun {
  public:
   StageRun(System& system, const StaticStage& stage, const StageControl& control, State& state)
@@ -39,6 +44,8 @@ class StageRun {
   bool find_points(StaticControl& control, StaticStep& step);
   // One point by the ladder; false when no algorithm finds it.
   bool find(StaticStep& step);
+  // Of an equilibrium that Newton's method didn't find, under load control: beyond `farthest`.
+  bool is_far(const StaticStep& step);
   void keep(const StaticStep& step, const StaticPoint& found);
   void give_up(const StaticControl& control, const StaticStep& step);
 
@@ -47,18 +54,32 @@ class StageRun {
   const StageControl& control_;
   State& state_;
   StaticPoint committed_;
+  double compliance_ = 0;  // displacement by load factor, of the last increment or elastic
   Ladder ladder_;
   std::vector<Attempt> attempts_;
   StageResult result_;
 };
 
 bool StageRun::find(StaticStep& step) {
-  const bool found = ladder_.climb(step, stage_.options.max_iterations, attempts_);
+  bool found = ladder_.climb(step, stage_.options.max_iterations, attempts_);
+  if (found && stage_.options.control == "load" && attempts_.size() > 1) found = !is_far(step);
   for (const Attempt& attempt : attempts_) result_.iterations += attempt.iterations;
   if (attempts_.size() > 1) {
     result_.ladder.push_back({stage_.name, static_cast<int>(result_.points.size()), committed_.factor, attempts_});
   }
   return found;
+}
+
+bool StageRun::is_far(const StaticStep& step) {
+  const StaticPoint& found = step.trial();
+  const double led = compliance_ * std::abs(found.factor - committed_.factor);
+  const double ratio = (found.state.displacement - committed_.state.displacement).norm() / led;
+  if (!(ratio > farthest)) return false;
+  Attempt& last = attempts_.back();
+  last.converged = false;
+  last.reason = fmt::format("an equilibrium {:.0f} times as far as the last increment leads; displacement control or the arc "
+                            "length follow the path", ratio);
+  return true;
 }
 
 void StageRun::keep(const StaticStep& step, const StaticPoint& found) {
@@ -85,6 +106,9 @@ void StageRun::give_up(const StaticControl& control, const StaticStep& step) {
   result_.stop_reason = fmt::format("stage '{}' cannot go on from load factor {:.6g}{} (relative residual {:.1e}), largest in "
                                     "element '{}'; tried: {}",
                                     stage_.name, committed_.factor, where, step.relative_residual(), step.worst_element(), tried(attempts_));
+  if (stage_.options.control == "arc-length") {
+    result_.stop_reason += "; where a path snaps back at a kink, displacement control of a DOF that goes on moving there follows it";
+  }
 }
 
 bool StageRun::find_points(StaticControl& control, StaticStep& step) {
@@ -110,6 +134,8 @@ bool StageRun::find_points(StaticControl& control, StaticStep& step) {
       return false;
     }
     largest_force = std::max(largest_force, step.largest_force());
+    if (const double factor = std::abs(step.trial().factor - committed_.factor); factor > 0)
+      compliance_ = (step.trial().state.displacement - committed_.state.displacement).norm() / factor;
     std::swap(committed_, step.trial());
     keep(step, committed_);
   }
@@ -122,7 +148,7 @@ StageResult StageRun::run() {
   result_.at = stage_.control_name;
   committed_ = {state_, 0};
   const VectorX response = response_to(system_, stage_.pattern, committed_);
-  const double size = response.norm();
+  const double size = compliance_ = response.norm();
   StaticStep step(system_, system_.static_load, stage_.pattern, size > 0 ? 1 / size : 1);
   const auto control = make_control({stage_, system_.model, committed_, response});
   for (StageObserver* observer : control_.observers) observer->start(system_.model, stage_, committed_.state);

@@ -57,8 +57,7 @@ std::string StaticStep::worst_element() const { return system_.assembler.worst_e
 
 void StaticStep::factor(Tangent which) {
   ++factorizations_;
-  const bool initial = which == Tangent::initial && system_.initial_stiffness.rows() == pattern_.size();
-  const SparseMatrix& K = initial ? system_.initial_stiffness : system_.assembler.tangent();
+  const SparseMatrix& K = which == Tangent::initial ? system_.initial_stiffness : system_.assembler.tangent();
   const int n = static_cast<int>(pattern_.size());
   if (dense_) {
     MatrixX J(n + 1, n + 1);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "assembly/system.hpp"
+#include "base/decompositions.hpp"
 #include "integrators/nonlinear_step.hpp"
 
 namespace nsframe {
@@ -44,6 +45,7 @@ class StaticStep : public NonlinearStep {
   // The part of the loads on members that acts at the end of the step; without, that at its start.
   void set_member_loads(double part) { member_loads_ = part; }
   StaticPoint& trial() { return trial_; }
+  const StaticPoint& trial() const { return trial_; }
   double largest_force() const { return scale_; }
   double relative_residual() const;
   // The element that carries the largest part of the residual.

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/decompositions.hpp"
+
 namespace nsframe {
 
 namespace {

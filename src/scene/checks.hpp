@@ -1,7 +1,8 @@
 // Rules of a table that span several keys; called when its single keys are without error.
 #pragma once
 
-#include "scene/scene.hpp"
+#include "models/analysis.hpp"
+#include "scene/tables.hpp"
 
 namespace nsframe {
 

@@ -32,16 +32,26 @@ std::optional<MotionDescription> describe(const MotionTable& motion, const std::
 
 }  // namespace
 
-SectionDescription describe(const SectionTable& section, const Materials& materials) {
+SectionDescription describe(const SectionTable& section, const std::vector<MaterialDescription>& materials) {
   SectionDescription out;
   out.name = section.name;
   out.at = section.at;
+  const auto find = [&materials](const Reference& material) {
+    return std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == material.name; });
+  };
   // 0 when there is no material of that name, which build_model() reports
-  const ElasticModulus modulus = [&materials](const Reference& material) {
-    const auto found = materials.find(material.name);
-    return found == materials.end() ? 0 : initial_tangent(found->second);
+  const ElasticModulus modulus = [&](const Reference& material) {
+    const auto found = find(material);
+    return found == materials.end() ? 0 : initial_tangent(found->law);
   };
   std::visit([&](const auto& kind) { describe(kind, modulus, out); }, section.kind);
+  out.faulty = section.faulty;
+  if (const auto* fibers = std::get_if<FiberSectionDescription>(&out.kind)) {
+    for (const FiberDescription& fiber : fibers->fibers) {
+      const auto found = find(fiber.material);
+      if (found != materials.end() && found->faulty) out.faulty = true;
+    }
+  }
   return out;
 }
 
@@ -75,18 +85,14 @@ ContactDescription describe(const ContactTable& contact) {
 void describe_model(Scene& scene, Diagnostics& diagnostics) {
   ModelDescription& model = scene.model;
   model = {};
-  for (const MaterialTable& m : scene.tables.materials) model.materials.push_back({m.name, m.at, m.law});
+  for (const MaterialTable& m : scene.tables.materials) model.materials.push_back({m.name, m.at, m.law, m.faulty});
   for (const StructureTable& structure : scene.tables.structures) {
     if (const auto* s = std::get_if<ExplicitStructure>(&structure)) {
       for (MaterialDescription& own : own_materials(*s)) model.materials.push_back(std::move(own));
     }
   }
-  // build_model() finds the same errors again and reports them
-  Diagnostics unreported;
-  const Materials materials = resolve_materials(model.materials, unreported);
-  if (unreported.empty())
-    for (MaterialDescription& material : model.materials) material.law = materials.at(material.name);
-  for (const SectionTable& s : scene.tables.sections) model.sections.push_back(describe(s, materials));
+  resolve_in_place(model.materials, diagnostics);
+  for (const SectionTable& s : scene.tables.sections) model.sections.push_back(describe(s, model.materials));
   for (const StructureTable& structure : scene.tables.structures) {
     if (const auto* frame = std::get_if<StoryFrameTable>(&structure); frame && !faults(frame->frame).empty()) {
       // Reported where it was read; the name stays known to contacts.

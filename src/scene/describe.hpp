@@ -7,6 +7,7 @@
 #include "base/diagnostics.hpp"
 #include "models/materials.hpp"
 #include "scene/scene.hpp"
+#include "scene/tables.hpp"
 
 namespace nsframe {
 
@@ -14,7 +15,7 @@ namespace nsframe {
 // and reads the records.
 void describe_model(Scene& scene, Diagnostics& diagnostics);
 
-SectionDescription describe(const SectionTable& section, const Materials& materials);
+SectionDescription describe(const SectionTable& section, const std::vector<MaterialDescription>& materials);
 StructureDescription describe(const ExplicitStructure& structure);
 StructureDescription describe(const StoryFrameTable& frame);
 // Laws of its own that the structure's elements name: of struts.

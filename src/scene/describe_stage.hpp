@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "scene/scene.hpp"
+#include "scene/tables.hpp"
 
 namespace nsframe {
 

@@ -280,7 +280,25 @@ std::size_t law_of(const std::string& name, const toml::table& table) {
 
 }  // namespace
 
+namespace {
+
+// Sets `faulty` at its end when there are more errors than at its beginning.
+class FaultWatch {
+ public:
+  FaultWatch(const Diagnostics& diagnostics, bool& faulty)
+      : diagnostics_(diagnostics), before_(diagnostics.messages().size()), faulty_(faulty) {}
+  ~FaultWatch() { faulty_ = diagnostics_.messages().size() > before_; }
+
+ private:
+  const Diagnostics& diagnostics_;
+  std::size_t before_;
+  bool& faulty_;
+};
+
+}  // namespace
+
 void Reader::read(const Value& value, const Field& field, MaterialTable& out) {
+  const FaultWatch watch(diagnostics_, out.faulty);
   out.name = value.text.value_or("");
   out.at = value.at;
   const toml::node* node = value.single();
@@ -298,6 +316,7 @@ void Reader::read(const Value& value, const Field& field, MaterialTable& out) {
 }
 
 void Reader::read(const Value& value, const Field& field, SectionTable& out) {
+  const FaultWatch watch(diagnostics_, out.faulty);
   out.name = value.text.value_or("");
   out.at = value.at;
   const toml::node* node = value.single();

@@ -7,17 +7,35 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "base/diagnostics.hpp"
 #include "models/analysis.hpp"
 #include "models/description.hpp"
-#include "scene/tables.hpp"
+#include "scene/gravity_table.hpp"
 
 namespace nsframe {
 
+// The tables of scene/tables.hpp.
+struct MaterialTable;
+struct SectionTable;
+struct ExplicitStructure;
+struct StoryFrameTable;
+using StructureTable = std::variant<ExplicitStructure, StoryFrameTable>;
+struct ContactTable;
+struct StageTable;
+struct MotionTable;
+
 // What the file says, before parametric structures are expanded and records are read.
 struct SceneTables {
+  SceneTables();
+  SceneTables(const SceneTables&);
+  SceneTables(SceneTables&&) noexcept;
+  SceneTables& operator=(const SceneTables&);
+  SceneTables& operator=(SceneTables&&) noexcept;
+  ~SceneTables();
+
   std::vector<MaterialTable> materials;
   std::vector<SectionTable> sections;
   std::vector<StructureTable> structures;
@@ -35,6 +53,13 @@ struct Scene {
   SceneTables tables;
   std::filesystem::path directory;         // file names in the scene are relative to it
   std::map<std::string, Location> places;  // of the keys of [analysis] and [output] that are there, as "analysis.dt"
+
+  Scene();
+  Scene(const Scene&);
+  Scene(Scene&&) noexcept;
+  Scene& operator=(const Scene&);
+  Scene& operator=(Scene&&) noexcept;
+  ~Scene();
 };
 
 // Reads a scene; `overrides` are "key=value" texts that replace or add values before (--set).

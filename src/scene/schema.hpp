@@ -172,8 +172,8 @@ void visit(Archive& ar, AnalysisOptions& a) {
      a.screening);
   ar(Field{"max_newton", "iterations of a step", {}, {1, 1e6}}, a.max_newton);
   ar(Field{"algorithm",
-           "tried in turn where one fails: `newton`, `modified`, `initial`, `line-search`, `krylov`, `broyden`; `auto`: "
-           "newton, line-search, krylov, initial"},
+           "tried in turn where one fails: `newton`, `modified`, `initial`, `line-search`, `krylov`, `broyden`, "
+           "`bfgs`; `auto`: newton, line-search, krylov, initial"},
      a.algorithm);
   ar(Field{"max_halvings", "of a step whose iterations fail", {}, {0, 60}}, a.max_halvings);
   ar(Field{"contact_solver", "of the contact problem"}, a.contact_solver);

@@ -11,15 +11,11 @@
 #include "models/description.hpp"
 #include "models/dof_names.hpp"
 #include "models/story_frame.hpp"
+#include "scene/gravity_table.hpp"
 #include "scene/quantity.hpp"
 #include "scene/sections/sections.hpp"
 
 namespace nsframe {
-
-// A unit vector: "x", "-y" or three numbers of any length.
-struct Direction {
-  Vector3 vector = Vector3::UnitX();
-};
 
 enum class Dof { ux, uy, uz, rx, ry, rz };
 
@@ -30,12 +26,14 @@ struct MaterialTable {
   std::string name;
   Location at;
   UniaxialLaw law;
+  bool faulty = false;  // an error in it was reported
 };
 
 struct SectionTable {
   std::string name;
   Location at;
   SectionKind kind;
+  bool faulty = false;  // an error in it was reported
 };
 
 // --- explicit structures
@@ -246,12 +244,6 @@ struct ContactTable {
   Direction direction;
   GapList gap;
   double restitution = ContactDescription{}.restitution;
-};
-
-struct GravityTable {
-  double acceleration = 9.81;  // [m/s2]
-  Direction direction{-Vector3::UnitZ()};
-  bool statically_first = true;
 };
 
 // --- static stages

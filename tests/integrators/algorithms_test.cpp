@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "base/errors.hpp"
 #include "integrators/algorithms.hpp"
 
@@ -82,13 +83,15 @@ TEST_CASE("every algorithm finds the same equilibrium, with and without a symmet
 }
 
 TEST_CASE("acceleration takes fewer iterations than modified Newton from the same tangent") {
-  Chain modified(5, 0.002, 0), krylov(5, 0.002, 0), broyden(5, 0.002, 0);
+  Chain modified(5, 0.002, 0), krylov(5, 0.002, 0), broyden(5, 0.002, 0), bfgs(5, 0.002, 0);
   const int slow = only(modified, "modified", 60).iterations;
   CHECK(modified.factorizations == 1);
   CHECK(only(krylov, "krylov").iterations < slow);
   CHECK(only(broyden, "broyden").iterations < slow);
+  CHECK(only(bfgs, "bfgs").iterations < slow);
   CHECK(krylov.factorizations <= 2);
   CHECK(broyden.factorizations == 1);
+  CHECK(bfgs.factorizations == 1);
 }
 
 TEST_CASE("acceleration and updates solve a linear system with a wrong matrix in as many iterations as it has unknowns") {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/decompositions.hpp"
 #include "integrators/moreau_jean.hpp"
 #include "tests/integrators/oscillators.hpp"
 
@@ -79,7 +80,7 @@ TEST_CASE("the scheme's damping ratio and frequency of a mode are those of its f
           A.row(n) << q(1), -q(0);
           b[n] = q(2);
         }
-        const Eigen::Vector2d fit = A.colPivHouseholderQr().solve(b);
+        const VectorX fit = A.colPivHouseholderQr().solve(b);
         const double alpha = -0.5 * std::log(fit[1]), beta = std::acos(0.5 * fit[0] / std::sqrt(fit[1]));
         const Model model = build(d);
         const System system(model, 1);

@@ -1,6 +1,7 @@
 // Static stages: arc length past limit points against closed forms, plastic limit loads, cycles, the ladder, errors.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "integrators/static_stage.hpp"
@@ -70,23 +71,57 @@ TEST_CASE("the arc length follows a softening chain past its limit point, on the
   }
 }
 
-TEST_CASE("load control cannot pass the limit point, and says where it stopped and what was tried") {
+TEST_CASE("where the arc length stops at a kink that snaps back, displacement control goes on, as it says") {
+  const double soft = 5e3;  // gives back more than the softening spring takes
   ModelDescription d = softening_chain();
-  d.stages[0].options.control = "load";
-  d.stages[0].options.targets = {11};
-  d.stages[0].options.step = 1;
+  d.structures[0].springs.back().stiffness = soft * Vector6::Unit(0);
+  d.stages[0].options.targets = {0.08};
+  {
+    const Model model = build(d);
+    Simulation simulation(model, options(1, 1e-3, 1));
+    std::vector<StageResult> results;
+    REQUIRE_FALSE(simulation.run_stages(1, {{"newton"}, {}, {}}, results));
+    CHECK(results[0].points.back().load_factor == doctest::Approx(10).epsilon(1e-3));
+    CHECK(results[0].stop_reason.find("displacement control of a DOF that goes on moving there") != std::string::npos);
+  }
+  d.stages[0].options.control = "displacement";
   const Model model = build(d);
-  AnalysisOptions analysis = options(1, 1e-3, 1);
-  analysis.algorithm = {"newton"};  // the others find the law's second branch, far away
-  Simulation simulation(model, analysis);
-  const Summary summary = simulation.run({});
-  CHECK_FALSE(summary.completed);
-  CHECK(summary.steps == 0);
-  REQUIRE(summary.stages.size() == 1);
-  CHECK(summary.stages[0].points.back().load_factor == doctest::Approx(10).epsilon(1e-3));
-  CHECK(summary.stop_reason.starts_with("stage 'push' cannot go on from load factor"));
-  CHECK(summary.stop_reason.find("s.1 ux = 0.0") != std::string::npos);
-  CHECK(summary.stop_reason.find("tried: newton (") != std::string::npos);
+  Simulation simulation(model, options(1, 1e-3, 1));
+  Curve curve;
+  std::vector<StageResult> results;
+  REQUIRE_MESSAGE(simulation.run_stages(1, {{"newton"}, {&curve}, {}}, results), results.back().stop_reason);
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    const double force = 100 * curve.points[i].load_factor, u = curve.states[i].displacement[0];
+    CHECK(force == doctest::Approx(softening_force(u)).epsilon(1e-8));
+    CHECK(curve.states[i].displacement[1] == doctest::Approx(u + force / soft).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("load control cannot pass the limit point, and says where it stopped and what was tried") {
+  for (const std::string algorithm : {"newton", "auto"}) {  // but for Newton's they find the law's second branch, far away
+    CAPTURE(algorithm);
+    ModelDescription d = softening_chain();
+    d.stages[0].options.control = "load";
+    d.stages[0].options.targets = {11};
+    d.stages[0].options.step = 1;
+    const Model model = build(d);
+    AnalysisOptions analysis = options(1, 1e-3, 1);
+    analysis.algorithm = {algorithm};
+    Simulation simulation(model, analysis);
+    const Summary summary = simulation.run({});
+    CHECK_FALSE(summary.completed);
+    CHECK(summary.steps == 0);
+    REQUIRE(summary.stages.size() == 1);
+    CHECK(summary.stages[0].points.back().load_factor == doctest::Approx(10).epsilon(1e-3));
+    CHECK(summary.stop_reason.starts_with("stage 'push' cannot go on from load factor"));
+    CHECK(summary.stop_reason.find("s.1 ux = 0.0") != std::string::npos);
+    CHECK(summary.stop_reason.find("tried: newton (") != std::string::npos);
+    const auto& records = summary.stages[0].ladder;
+    const bool refused = std::any_of(records.begin(), records.end(), [](const LadderRecord& record) {
+      return record.attempts.back().reason.find("times as far as the last increment leads") != std::string::npos;
+    });
+    CHECK(refused == (algorithm == "auto"));
+  }
 }
 
 TEST_CASE("arc length gives up after its most points") {
@@ -100,6 +135,41 @@ TEST_CASE("arc length gives up after its most points") {
   const Summary summary = simulation.run({});
   CHECK_FALSE(summary.completed);
   CHECK(summary.stop_reason.find("the target is not reached after 5 points") != std::string::npos);
+}
+
+TEST_CASE("a force-based member whose whole end section flows goes on at its plastic moment, forth and back") {
+  const double depth = 0.2, width = 0.1, fy = 235e6, height = 2;
+  ModelDescription d;
+  d.materials = {{"m", {}, Steel01{fy, 210e9, 0}}};
+  FiberSectionDescription section;
+  for (int i = 0; i < 20; ++i)
+    for (const double z : {-0.25 * width, 0.25 * width}) section.fibers.push_back({depth * ((i + 0.5) / 20 - 0.5), z, depth / 20 * width / 2, {"m", {}}});
+  section.torsion_stiffness = 1e5;
+  d.sections = {{"c", {}, section, {}}};
+  StructureDescription structure;
+  structure.name = "s";
+  structure.nodes = {node("1", 0, 0, 0), node("2", 0, 0, height)};
+  structure.supports = {fixed("1"), fixed("2", {false, true, false, true, false, true})};
+  structure.elements = {beam("e", "1", "2", "c", ElementKind::force_beam)};
+  structure.masses = {mass("2", 100)};
+  d.structures = {structure};
+  StageDescription stage;
+  stage.name = "push";
+  stage.loads = {{{"s.2", {}}, 0, fy * width * depth * depth / 4 / height}};
+  stage.control_node = Reference{"s.2", {}};
+  stage.options.control = "displacement";
+  stage.options.targets = {0.2, -0.2, 0.1};
+  stage.options.steps = 40;
+  d.stages = {stage};
+  const Model model = build(d);
+  Simulation simulation(model, options(1, 1e-3, 1));
+  std::vector<StageResult> results;
+  REQUIRE_MESSAGE(simulation.run_stages(1, {{"newton"}, {}, {}}, results), results.back().stop_reason);
+  CHECK(results[0].halved == 0);
+  REQUIRE(results[0].points.size() == 121);
+  CHECK(results[0].points[40].load_factor == doctest::Approx(1).epsilon(1e-8));  // stands for the stiffness: 1e-10 of it
+  CHECK(results[0].points[80].load_factor == doctest::Approx(-1).epsilon(1e-8));
+  CHECK(results[0].points[120].load_factor == doctest::Approx(1).epsilon(1e-8));
 }
 
 TEST_CASE("loads of earlier stages stay, and the time history begins under all of them") {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/decompositions.hpp"
 #include "integrators/static_analysis.hpp"
 #include "tests/integrators/oscillators.hpp"
 #include "tests/support/reference_data.hpp"

@@ -1,66 +1,13 @@
-// Every error that building a model can report, with its words and its place.
+// Errors that building a model reports, with their words and places; others in member_errors_test.cpp,
+// section_errors_test.cpp and contact_errors_test.cpp.
 #include <doctest/doctest.h>
 
 #include <limits>
 
-#include "tests/support/small_models.hpp"
+#include "tests/models/descriptions.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
-
-namespace {
-
-StructureDescription& only(ModelDescription& d) { return d.structures.front(); }
-
-SectionDescription fibers(const std::string& name, double shift, const std::string& material) {
-  FiberSectionDescription section;
-  for (const double y : {-0.1, 0.1}) {
-    for (const double z : {-0.05, 0.05}) section.fibers.push_back({y + shift, z, 1e-3, {material, at(30)}});
-  }
-  section.torsion_stiffness = 1e4;
-  return {name, at(31), section, {}};
-}
-
-// Two columns with a slab of four nodes each, side by side; no contact yet.
-ModelDescription two_slabs(double height_of_second = 3) {
-  ModelDescription d;
-  for (int i = 0; i < 2; ++i) {
-    StructureDescription s;
-    s.name = i == 0 ? "left" : "right";
-    s.at = at(40 + i);
-    const double x = 2.1 * i, z = i == 0 ? 3 : height_of_second;
-    s.nodes = {node("1", x, 0, z), node("2", x + 2, 0, z), node("3", x + 2, 1, z), node("4", x, 1, z), node("5", x + 1, 0.5, z)};
-    s.constraints = {constraint(ConstraintKind::rigid_body, "5", {"1", "2", "3", "4"})};
-    s.masses = {mass("5", 1000, Vector3(100, 200, 300))};
-    s.slabs.push_back({"1", at(45), {{"1", {}}, {"2", {}}, {"3", {}}, {"4", {}}}, Reference{"5", {}}, 0.12, true});
-    s.may_move_freely = true;
-    d.structures.push_back(s);
-  }
-  return d;
-}
-
-ContactDescription slab_contact(std::vector<double> gap = {}) {
-  ContactDescription c;
-  c.at = at(50);
-  c.a = {"left", at(51)};
-  c.b = Reference{"right", at(52)};
-  c.gap = std::move(gap);
-  return c;
-}
-
-ContactDescription node_contact(const std::string& a, const std::string& b, std::vector<double> gap = {0.1}) {
-  ContactDescription c = slab_contact(std::move(gap));
-  c.kind = ContactKind::nodes;
-  c.a.name = a;
-  if (b.empty()) {
-    c.b.reset();
-  } else {
-    c.b->name = b;
-  }
-  return c;
-}
-
-}  // namespace
 
 TEST_CASE("a column with a mass at its top is a valid model") { CHECK(error_of(column()) == "no error"); }
 
@@ -245,156 +192,10 @@ TEST_CASE("bars, cables and springs with impossible properties are errors") {
   CHECK(error_of(d) == "s.toml:7:3: error: spring 'a.k': negative stiffness or damping");
 }
 
-TEST_CASE("an elastic member needs a section centred on its principal axes, a fiber member needs fibers") {
-  ModelDescription d = column();
-  d.materials = {{"steel", {}, Elastic{210e9}}};
-  d.sections.push_back(fibers("centred", 0, "steel"));
-  d.sections.push_back(fibers("shifted", 0.02, "steel"));
-  only(d).elements[0].section = {"centred", at(6)};
-  only(d).elements[0].at = at(5);
-  CHECK(error_of(d) == "no error");
-  only(d).elements[0].section.name = "shifted";
-  CHECK(error_of(d) ==
-        "s.toml:6:3: error: element 'a.e1' is elastic, but the fibers of section 'shifted' are not centred on their principal axes; "
-        "use a fiber element, or give A, Iz, Iy, J");
-  for (const ElementKind kind : {ElementKind::displacement_beam, ElementKind::force_beam}) {
-    only(d).elements[0].kind = kind;
-    CHECK(error_of(d) == "no error");
-    only(d).elements[0].points = 2;
-    CHECK(error_of(d) == "s.toml:5:3: error: element 'a.e1': points = 2, must lie in [3, 10]");
-    only(d).elements[0].points = 5;
-    only(d).elements[0].section.name = "c";
-    CHECK(error_of(d) == "s.toml:6:3: error: element 'a.e1' needs fibers, section 'c' has elastic constants only");
-    only(d).elements[0].section.name = "shifted";
-  }
-}
-
-TEST_CASE("a section without fibers, or with impossible constants, is an error, and members of it raise no others") {
-  for (const ElementKind kind : {ElementKind::displacement_beam, ElementKind::force_beam, ElementKind::elastic_beam}) {
-    ModelDescription d = column();
-    FiberSectionDescription empty;
-    empty.torsion_stiffness = 1e4;
-    d.sections[0] = {"c", at(31), empty, {}};
-    only(d).elements[0].kind = kind;
-    CHECK(error_of(d) == "s.toml:31:3: error: section 'c' has no fibers");
-  }
-  ModelDescription d = column();
-  d.materials = {{"steel", {}, Elastic{210e9}}};
-  SectionDescription bad = fibers("f", 0, "steel");
-  std::get<FiberSectionDescription>(bad.kind).torsion_stiffness = 0;
-  std::get<FiberSectionDescription>(bad.kind).fibers[1].area = -1e-3;
-  d.sections.push_back(bad);
-  CHECK(error_of(d) ==
-        "s.toml:31:3: error: section 'f': a fiber's area must be positive\n"
-        "s.toml:31:3: error: section 'f': the torsion stiffness GJ must be positive");
-  d = column();
-  d.sections[0] = elastic_section("c", {210e9, 81e9, 0, 1e-5, 4e-6, -1});
-  d.sections[0].at = at(31);
-  CHECK(error_of(d) ==
-        "s.toml:31:3: error: section 'c': A must be positive\n"
-        "s.toml:31:3: error: section 'c': J must be positive");
-}
-
-TEST_CASE("a law with an impossible parameter is an error, and its members raise no others") {
-  for (const ElementKind kind : {ElementKind::displacement_beam, ElementKind::force_beam}) {
-    ModelDescription d = column();
-    d.materials = {{"steel", at(29), Steel02{235e6, 0, 0.01}}};
-    d.sections.push_back(fibers("f", 0, "steel"));
-    only(d).elements[0].section.name = "f";
-    only(d).elements[0].kind = kind;
-    const auto errors = errors_of(d);
-    REQUIRE(errors.size() == 1);
-    CHECK(errors[0].starts_with("s.toml:29:3: error: material 'steel': "));
-  }
-}
-
-TEST_CASE("wrappers of laws that are not there, or of themselves, are errors at the place") {
-  ModelDescription d = column();
-  const auto around = [](const std::string& name, int line) { return MinMax{{{name, at(line)}, nullptr}, {}, 0.1}; };
-  d.materials = {{"steel", at(28), Elastic{210e9}}, {"brittle", at(29), around("steal", 30)}};
-  CHECK(error_of(d) == "s.toml:30:3: error: material 'steal' is not defined; did you mean 'steel'?");
-  d.materials[1].law = around("steel", 30);
-  CHECK(error_of(d) == "no error");
-  // three in a ring, met from outside
-  d.materials = {{"a", at(25), around("b", 26)}, {"b", at(27), around("c", 28)}, {"c", at(29), around("d", 30)},
-                 {"d", at(31), around("b", 32)}};
-  CHECK(error_of(d) == "s.toml:32:3: error: material 'b' is made of itself: b, c, d, b");
-  d.materials = {{"a", at(25), around("a", 26)}};
-  CHECK(error_of(d) == "s.toml:26:3: error: material 'a' is made of itself: a, a");
-  // an error inside is reported once, where it is
-  d.materials = {{"a", at(25), around("b", 26)}, {"b", at(27), Elastic{-1}}};
-  CHECK(error_of(d) == "s.toml:27:3: error: material 'b': E must be positive");
-  d.materials = {{"a", at(25), InitStress{{{"b", at(26)}, nullptr}, 2e8}}, {"b", at(27), ElasticPP{2e11, 5e-4}}};
-  CHECK(error_of(d) == "s.toml:25:3: error: material 'a': sigInit is not reached by the material's first loading");
-  // a section of such a material raises no others
-  d.sections.push_back(fibers("f", 0, "a"));
-  CHECK(errors_of(d).size() == 1);
-}
-
 TEST_CASE("an initial value of a held direction is an error") {
   ModelDescription d = column();
   only(d).initial_displacements.push_back({{"1", at(6)}, 2, 0.1});
   CHECK(error_of(d) == "s.toml:6:3: error: uz of node 'a.1' is not free: its initial value cannot be set");
-}
-
-TEST_CASE("a slab has three corners at least") {
-  ModelDescription d = two_slabs();
-  only(d).slabs[0].corners.resize(2);
-  CHECK(error_of(d) == "s.toml:45:3: error: slab 'left.1' needs at least three corners");
-}
-
-TEST_CASE("contacts between slabs: the number of gaps, the level, the overlap") {
-  ModelDescription d = two_slabs();
-  d.contacts = {slab_contact()};
-  CHECK(error_of(d) == "no error");
-  d.contacts = {slab_contact({0.1, 0.2, 0.3})};
-  CHECK(error_of(d) == "s.toml:50:3: error: 3 gaps for 2 corners on 1 floors: give one, two, or 2");
-  d = two_slabs(3.5);
-  d.contacts = {slab_contact()};
-  CHECK(error_of(d) == "s.toml:50:3: error: structures 'left' and 'right' have no slabs at the same level");
-  d = two_slabs();
-  d.contacts = {slab_contact()};
-  for (NodeDescription& item : d.structures[1].nodes) item.position.x() -= 0.15;
-  CHECK(error_of(d) ==
-        "s.toml:50:3: error: contact 'left.2|right.1': the coordinates overlap by 0.05 m; give the gap or move a structure\n"
-        "s.toml:50:3: error: contact 'left.3|right.4': the coordinates overlap by 0.05 m; give the gap or move a structure");
-  d.contacts = {slab_contact({0.01})};
-  CHECK(error_of(d) == "no error");
-  d.contacts[0].b.reset();
-  CHECK(error_of(d) == "s.toml:50:3: error: slab-corners needs two structures");
-  d.contacts = {slab_contact()};
-  d.contacts[0].b->name = "rigth";
-  CHECK(error_of(d) == "s.toml:52:3: error: structure 'rigth' is not defined; did you mean 'right'?");
-  d = two_slabs();
-  d.structures[1].nodes[0].position.x() -= 0.01;
-  d.contacts = {slab_contact()};
-  CHECK(error_of(d) == "s.toml:50:3: error: slabs 'left.1' and 'right.1' do not face each other with two corners each");
-}
-
-TEST_CASE("contacts between nodes: references, gaps, restitution, direction, and a side that can move") {
-  ModelDescription d = two_slabs();
-  d.contacts = {node_contact("left.2", "right.1")};
-  CHECK(error_of(d) == "no error");
-  d.contacts = {node_contact("left.22", "")};
-  CHECK(error_of(d) == "s.toml:51:3: error: node 'left.22' is not defined; did you mean 'left.2'?");
-  d.contacts = {node_contact("left.2", "right.1", {0.1, 0.2})};
-  CHECK(error_of(d) == "s.toml:50:3: error: a contact of two nodes has one gap");
-  d.contacts = {node_contact("left.2", "", {})};
-  CHECK(error_of(d) == "s.toml:50:3: error: a contact with the ground needs its gap");
-  for (const double e : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
-    d.contacts = {node_contact("left.2", "right.1")};
-    d.contacts[0].restitution = e;
-    const auto errors = errors_of(d);
-    REQUIRE(errors.size() == 1);
-    CHECK(errors[0].starts_with("s.toml:50:3: error: restitution = "));
-    CHECK(errors[0].ends_with(", must lie in [0, 1]"));
-  }
-  d.contacts = {node_contact("left.2", "right.1")};
-  d.contacts[0].direction = Vector3(1, 1, 0);
-  CHECK(error_of(d) == "s.toml:50:3: error: the direction of a contact must be a unit vector");
-  d = column();
-  d.contacts = {node_contact("a.1", "")};
-  CHECK(error_of(d) == "s.toml:50:3: error: contact 'a.1|wall': both sides are held by supports in its direction");
 }
 
 TEST_CASE("a model in which supports hold everything, or without structures, is an error") {

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "models/model.hpp"
+#include "scene/sections/sections.hpp"
 #include "scene_text.hpp"
 
 using namespace nsframe;
@@ -178,6 +180,28 @@ TEST_CASE("sections that can't be made are errors") {
         "s.toml:1:10: error: a fiber section needs either GJ, or G and J, or torsion_law");
   CHECK(error("[section.a]\ndepth = 1") ==
         "s.toml:1:10: error: a section needs one of: " + section_choices());
+}
+
+TEST_CASE("an error in a material or a section is reported once, whatever is built of it") {
+  const std::string frame = "[structure.a]\nelement = \"displacement\"\nnodes = [[1, 0, 0, 0], [2, 0, 0, 2]]\n"
+                            "supports = { 1 = \"fixed\" }\nmasses = [[2, 100]]\nbeams = [[1, 1, 2, \"c\"]]\n";
+  const auto all = [&](const std::string& material, const std::string& section) {
+    Diagnostics diagnostics;
+    const Scene scene = parse_scene(frame + "[material.m]\nlaw = \"Steel01\"\nfy = 1\n" + material + "[section.c]\nmaterial = \"m\"\n" + section,
+                                    "s.toml", {}, {}, diagnostics);
+    try {
+      build_model(scene.model, diagnostics);
+    } catch (const InputError&) {
+    }
+    std::string text;
+    for (const std::string& message : diagnostics.messages()) text += message + "\n";
+    return text;
+  };
+  CHECK(all("b = 0.01\n", "shape = \"HEA100\"") == "s.toml:7:11: error: missing key 'E'\n");
+  CHECK(all("E = 1\nb = 0.01\n", "shape = \"HEA101\"") ==
+        "s.toml:14:9: error: shape 'HEA101' is not in the catalogue; did you mean 'HEA100'?\n");
+  CHECK(all("E = 1\nb = 0.01\n[material.w]\nlaw = \"MinMax\"\nmaterial = \"x\"\nmax = 1\n", "shape = \"HEA100\"") ==
+        "s.toml:14:12: error: material 'x' is not defined; known: m, w\n");
 }
 
 TEST_CASE("damping that doesn't fit its kind is an error") {

@@ -3,6 +3,9 @@
 
 #include <cmath>
 
+#include "elements/catalogue.hpp"
+#include "elements/fiber_cutting.hpp"
+#include "elements/torsion.hpp"
 #include "scene_text.hpp"
 
 using namespace nsframe;

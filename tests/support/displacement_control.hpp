@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "base/decompositions.hpp"
 #include "integrators/static_analysis.hpp"
 
 namespace nsframe::test {

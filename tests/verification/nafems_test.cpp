@@ -1,11 +1,12 @@
-// Free and forced vibration benchmarks of NAFEMS for beams: FV2, FV4, FV5, 5H, 5T. The geometry was checked against
-// closed forms (Euler-Bernoulli arms, Timoshenko's beam), which are tested beside NAFEMS' own figures.
-#include <doctest/doctest.h>
+// Free and forced vibration benchmarks of NAFEMS for beams: FV2, FV4, FV5, 5H, 5T. Closed forms (Euler-Bernoulli arms,
+// Timoshenko's beam) stand beside NAFEMS' own figures.
+#include <fmt/format.h>
 
 #include <complex>
 
 #include "integrators/simulation.hpp"
 #include "tests/support/small_models.hpp"
+#include "tests/verification/registry.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
@@ -26,12 +27,10 @@ std::vector<double> frequencies(const ModelDescription& d, int count) {
   return f;
 }
 
-void check_near(const std::vector<double>& found, const std::vector<double>& expected, double tolerance) {
-  REQUIRE(found.size() >= expected.size());
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    CAPTURE(i);
-    CHECK(found[i] == doctest::Approx(expected[i]).epsilon(tolerance));
-  }
+void add_frequencies(VerificationRows& rows, const std::string& what, const std::vector<double>& found,
+                     const std::vector<double>& expected, double tolerance) {
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    rows.add(fmt::format("{}frequency {}, Hz", what, i + 1), found.at(i), expected[i], relative(tolerance));
 }
 
 // A line of n beams from `a` to `b`; node ids PREFIX0 (if new) to PREFIXn.
@@ -76,13 +75,15 @@ double timoshenko(int n, double L, double A, double I, double shear_area) {
 
 }  // namespace
 
-TEST_CASE("NAFEMS FV5: the deep simply supported beam vibrates as Timoshenko's") {
+VERIFICATION_CASE("Modes", "NAFEMS FV5: deep simply supported beam",
+                  "10 m, square of 2 m, E = 200 GPa, nu = 0.3, 8000 kg/m3, rotary inertia, Cowper's shear coefficient; forty elements. "
+                  "Closed forms of Timoshenko's beam and of rods, and the figures of NAFEMS.") {
   const std::vector<double> f = frequencies(deep_beam(40), 9);
   const auto bending = [](int n) { return timoshenko(n, 10, 4, 16.0 / 12, fv5_shear * 4); };
   const double torsion = std::sqrt(G / density) / 40, axial = std::sqrt(E / density) / 40;
-  check_near(f, {bending(1), bending(1), torsion, axial, bending(2), bending(2), 3 * torsion, bending(3), bending(3)},
-             1e-3);
-  check_near(f, {42.649, 42.649, 77.542, 125.00, 148.31, 148.31, 233.10, 284.55, 284.55}, 5e-3);
+  add_frequencies(rows, "closed form: ", f,
+                  {bending(1), bending(1), torsion, axial, bending(2), bending(2), 3 * torsion, bending(3), bending(3)}, 1e-3);
+  add_frequencies(rows, "NAFEMS: ", f, {42.649, 42.649, 77.542, 125.00, 148.31, 148.31, 233.10, 284.55, 284.55}, 5e-3);
 }
 
 namespace {
@@ -110,26 +111,29 @@ ModelDescription double_cross(double stretch) {
 
 }  // namespace
 
-TEST_CASE("NAFEMS FV2: the pin-ended double cross has clusters of seven equal frequencies") {
+VERIFICATION_CASE("Modes", "NAFEMS FV2: pin-ended double cross",
+                  "Eight arms of 5 m, square of 0.125 m, in their plane; ten elements an arm. The figures are those of arms that don't "
+                  "stretch; arms that do let the centre move in two modes of each cluster. Closed form of a clamped and pinned beam.") {
   const double h = 0.125, A = h * h, I = A * h * h / 12;
   const double unit = std::sqrt(E * I / (density * A)) / (2 * pi * 25);  // arms of 5 m
-  std::vector<double> exact{pi * pi * unit}, nafems{11.336};
-  for (int i = 0; i < 7; ++i) exact.push_back(15.4182057 * unit), nafems.push_back(17.709);
-  exact.push_back(4 * pi * pi * unit), nafems.push_back(45.345);
-  for (int i = 0; i < 7; ++i) exact.push_back(49.9648620 * unit), nafems.push_back(57.390);
-  // the figures are those of arms that don't stretch; the elements leave 0.018 % of the second clamped-pinned mode
-  const std::vector<double> rigid = frequencies(double_cross(1e3), 16);
-  check_near(rigid, exact, 3e-4);
-  check_near(rigid, nafems, 3e-4);
-  // arms that stretch let the centre move in two modes of each cluster
-  const std::vector<double> f = frequencies(double_cross(1), 16);
-  check_near(f, nafems, 6e-3);
-  CHECK(f[2] == doctest::Approx(f[1]).epsilon(1e-9));
-  CHECK(f[2] < 0.999 * f[3]);
-  CHECK(f[7] == doctest::Approx(f[3]).epsilon(1e-9));
+  const std::vector<double> rigid = frequencies(double_cross(1e3), 16), f = frequencies(double_cross(1), 16);
+  const std::array<std::tuple<int, double, double>, 4> clusters{{{0, pi * pi * unit, 11.336},
+                                                                {7, 15.4182057 * unit, 17.709},
+                                                                {8, 4 * pi * pi * unit, 45.345},
+                                                                {15, 49.9648620 * unit, 57.390}}};
+  for (const auto& [last, exact, nafems] : clusters) {  // the elements leave 0.018 % of the second clamped and pinned mode
+    const auto i = static_cast<std::size_t>(last);
+    rows.add(fmt::format("closed form: frequency {}, Hz", last + 1), rigid[i], exact, relative(3e-4));
+    rows.add(fmt::format("NAFEMS: frequency {}, Hz", last + 1), rigid[i], nafems, relative(3e-4));
+    rows.add(fmt::format("NAFEMS: frequency {} of arms that stretch, Hz", last + 1), f[i], nafems, relative(6e-3));
+  }
+  rows.add("spread of the first cluster of seven", rigid[7] / rigid[1], 1, relative(3e-4));
+  rows.add("frequency 2 of arms that stretch, Hz", f[1], f[2], relative(1e-9));
+  rows.add("frequency 4 of arms that stretch, Hz", f[3], f[7], relative(1e-9));
 }
 
-TEST_CASE("NAFEMS FV4: a cantilever with masses on rigid arms beside its tip") {
+VERIFICATION_CASE("Modes", "NAFEMS FV4: cantilever with off-centre masses",
+                  "10 m, round of 0.5 m; 10 and 1 t on rigid arms of 2 m to both sides of the tip; twenty elements.") {
   ModelDescription d;
   const double r = 0.25, A = pi * r * r, I = A * r * r / 4;
   d.sections = {elastic_section("s", {E, G, A, I, I, 2 * I})};
@@ -141,10 +145,11 @@ TEST_CASE("NAFEMS FV4: a cantilever with masses on rigid arms beside its tip") {
   s.masses = {mass("heavy", 10000), mass("light", 1000)};
   s.constraints = {constraint(ConstraintKind::rigid_body, "20", {"heavy", "light"})};
   d.structures = {s};
-  check_near(frequencies(d, 6), {1.723, 1.727, 7.413, 9.972, 18.155, 26.957}, 3e-4);
+  add_frequencies(rows, "", frequencies(d, 6), {1.723, 1.727, 7.413, 9.972, 18.155, 26.957}, 3e-4);
 }
 
-TEST_CASE("NAFEMS 5H: the deep beam under a harmonic line load of 1 MN/m has its peak at the first frequency") {
+VERIFICATION_CASE("Oscillators and time integration", "NAFEMS 5H: deep beam under a harmonic line load",
+                  "The beam of FV5 in ten elements under 1 MN/m, damping 2 % in every mode; amplitude of the middle at its peak.") {
   ModelDescription d = deep_beam(10);
   d.structures.front().damping.kind = DampingKind::modal;
   d.structures.front().damping.ratios = std::vector<double>(9, 0.02);
@@ -170,11 +175,12 @@ TEST_CASE("NAFEMS 5H: the deep beam under a harmonic line load of 1 MN/m has its
         std::abs(Eigen::VectorXcd(dynamic.partialPivLu().solve(load.cast<std::complex<double>>()))[middle]);
     if (amplitude > peak) peak = amplitude, at = f;
   }
-  CHECK(peak == doctest::Approx(13.45e-3).epsilon(5e-3));
-  CHECK(at == doctest::Approx(42.65).epsilon(2e-3));
+  rows.add("peak amplitude, mm", 1e3 * peak, 13.45, relative(5e-3));
+  rows.add("its frequency, Hz", at, 42.65, relative(2e-3));
 }
 
-TEST_CASE("NAFEMS 5T: a line load of 1 MN/m that acts suddenly on the deep beam") {
+VERIFICATION_CASE("Oscillators and time integration", "NAFEMS 5T: deep beam under a sudden line load",
+                  "The beam of FV5 in ten elements under 1 MN/m from t = 0 on, damping 2 % in every mode; theta = 1/2, dt = 20 us.") {
   ModelDescription d = deep_beam(10);
   d.structures.front().damping.kind = DampingKind::modal;
   d.structures.front().damping.ratios = std::vector<double>(9, 0.02);
@@ -191,9 +197,10 @@ TEST_CASE("NAFEMS 5T: a line load of 1 MN/m that acts suddenly on the deep beam"
   options.theta = 0.5;
   const Model statically = build(d);
   Simulation at_rest(statically, options);
-  CHECK(middle_of(statically, at_rest.state()) == doctest::Approx(0.538e-3).epsilon(2e-3));
+  const double rest = 1e3 * middle_of(statically, at_rest.state());
+  rows.add("static displacement of the middle, mm", rest, 0.538, relative(5e-3));
   const double EI = E * 16 / 12, GA = G * fv5_shear * 4;  // 5 w L^4/384 EI + w L^2/8 GA
-  CHECK(middle_of(statically, at_rest.state()) == doctest::Approx(5e10 / 384 / EI + 1e8 / 8 / GA).epsilon(1e-9));
+  rows.add("the same, closed form", rest, 1e3 * (5e10 / 384 / EI + 1e8 / 8 / GA), relative(1e-9));
 
   d.gravity.statically_first = false;
   const Model model = build(d);
@@ -208,6 +215,6 @@ TEST_CASE("NAFEMS 5T: a line load of 1 MN/m that acts suddenly on the deep beam"
   peak.model = &model;
   Simulation simulation(model, options);
   simulation.run({&peak});
-  CHECK(peak.value == doctest::Approx(1.043e-3).epsilon(5e-3));
-  CHECK(peak.time == doctest::Approx(0.0117).epsilon(0.01));
+  rows.add("largest displacement, mm", 1e3 * peak.value, 1.043, relative(5e-3));
+  rows.add("its time, s", peak.time, 0.0117, relative(0.01));
 }

@@ -76,14 +76,10 @@ inline AreaMoments moments(const AngleTable& angle) {
   return sum;
 }
 
-// Rows: directions of the new y and z in the legs' axes.
+// Rows: directions of the new y, that of the largest integral of yy, and of the new z in the legs' axes.
 inline Matrix2 principal_axes(const Matrix2& second) {
-  const Eigen::SelfAdjointEigenSolver<Matrix2> solver(second);
-  Vector2 y = solver.eigenvectors().col(1);  // of the largest integral of yy
-  if (y.x() < 0) y = -y;
-  Matrix2 axes;
-  axes << y.x(), y.y(), -y.y(), y.x();
-  return axes;
+  const double turn = std::atan2(2 * second(0, 1), second(0, 0) - second(1, 1)) / 2;
+  return Eigen::Rotation2D<double>(-turn).toRotationMatrix();
 }
 
 inline void describe(const AngleSection& section, const ElasticModulus& modulus, SectionDescription& out) {
