@@ -205,8 +205,13 @@ void Exact::advance(const System& system, double time, double length, StepResult
       }
     }
     remove_drift();
-    if (event.kind == FlightEvent::Kind::opens) end_contact(event.pair, time + at, result);
+    const bool opens = event.kind == FlightEvent::Kind::opens;
+    if (opens) {
+      end_contact(event.pair, time + at, result);
+      contact_.touching[static_cast<std::size_t>(event.pair)] = false;  // its force is zero: rounding may not close it again at once
+    }
     if (event.kind != FlightEvent::Kind::none) collide(system, time + at, end - at, result);
+    if (opens && !std::binary_search(contact_.closed.begin(), contact_.closed.end(), event.pair)) contact_.touching[static_cast<std::size_t>(event.pair)] = true;
   }
 }
 

@@ -30,7 +30,7 @@ class Exact : public Scheme {
   void add_energy(double s, StepResult& result);
   // Impacts at this time, until no gap that is zero closes any more.
   void collide(const System& system, double time, double remaining, StepResult& result);
-  bool collide_once(const System& system, double time, double remaining, StepResult& result);
+  bool collide_once(const System& system, double time, double remaining, bool last, StepResult& result);
   // Which of the touching pairs with no gap rate stay closed.
   void settle(const System& system, double time, StepResult& result);
   void remove_drift();

@@ -15,7 +15,8 @@ namespace {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // An approach slower than this part of the fastest one so far ends an accumulation of impacts.
 constexpr double slowest_approach = 1e-8;
-constexpr int most_rounds = 1000;  // of impacts at one time
+// Impacts at one time one after another; then all touching pairs together, and plastically, end them.
+constexpr int most_rounds = 200;
 
 }  // namespace
 
@@ -69,14 +70,13 @@ VectorX Exact::accelerations() const {
 void Exact::collide(const System& system, double time, double remaining, StepResult& result) {
   if (modes_.pairs() == 0) return;
   rate_ = modes_.gap * state_.y;
-  for (int round = 0; collide_once(system, time, remaining, result); ++round) {
-    if (round > most_rounds) throw ConvergenceError(fmt::format("more than {} impacts at t = {:.9g} s", most_rounds, time));
+  for (int round = 0; round <= most_rounds && collide_once(system, time, remaining, round == most_rounds, result); ++round) {
   }
   settle(system, time, result);
   disturbed_ = true;
 }
 
-bool Exact::collide_once(const System& system, double time, double remaining, StepResult& result) {
+bool Exact::collide_once(const System& system, double time, double remaining, bool last, StepResult& result) {
   std::vector<int> pairs;
   bool closing = false;
   for (int c = 0; c < modes_.pairs(); ++c) {
@@ -84,7 +84,7 @@ bool Exact::collide_once(const System& system, double time, double remaining, St
     if (modes_.compliant[i]) continue;
     const bool closed = std::binary_search(contact_.closed.begin(), contact_.closed.end(), c);
     const double noise = rate_noise(c);
-    if (!closed && (!contact_.touching[i] || rate_[c] > noise)) continue;
+    if (!closed && (!contact_.touching[i] || (rate_[c] > noise && !last))) continue;
     pairs.push_back(c);
     closing = closing || rate_[c] < -noise;
   }
@@ -95,7 +95,7 @@ bool Exact::collide_once(const System& system, double time, double remaining, St
   largest_approach_ = std::max(largest_approach_, fastest);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const int c = pairs[k];
-    const bool slow = -rate_[c] < slowest_approach * largest_approach_;
+    const bool slow = last || -rate_[c] < slowest_approach * largest_approach_;
     const double e = slow ? 0 : system.contacts().restitution[c];
     rhs[static_cast<Eigen::Index>(k)] = (1 + e) * rate_[c];
   }
