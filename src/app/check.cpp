@@ -62,6 +62,13 @@ void print_solution(const LoadedScene& loaded, Simulation& simulation) {
                stage.options.targets.front(), stage.options.targets.back());
   }
   if (!simulation.stages().empty() && !(simulation.duration() > 0)) return;
+  const std::vector<std::string> own = simulation.scheme().describe();
+  if (!own.empty()) {
+    fmt::print("scheme {}: results every {:g} ms, {} steps to {:g} s\n", analysis.scheme, 1e3 * analysis.dt,
+               std::lround(simulation.duration() / analysis.dt), simulation.duration());
+    for (const std::string& line : own) fmt::print("  {}\n", line);
+    return;
+  }
   fmt::print("scheme {}: theta = {:g}, gamma = {:g}, dt = {:g} ms, {} steps to {:g} s\n", analysis.scheme, analysis.theta,
              analysis.gamma, 1e3 * analysis.dt, std::lround(simulation.duration() / analysis.dt), simulation.duration());
   const std::string algorithms = fmt::format("{}", fmt::join(analysis.algorithm, ", "));

@@ -24,6 +24,7 @@ class Simulation {
   const SparseMatrix& initial_stiffness() const { return stiffness_; }
   State& state() { return state_; }
   double duration() const;
+  const Scheme& scheme() const { return *scheme_; }
   // With the patterns of modes filled in.
   const std::vector<StaticStage>& stages() const { return stages_; }
   // Runs stages [0, count) from the first rest; false when one cannot go on, which the last result tells.
