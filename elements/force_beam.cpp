@@ -47,9 +47,9 @@ constexpr double change_tolerance = 1e-4;
 constexpr double force_tolerance = 1e-11;
 constexpr double least_stiffness = 1e-10;  // of the elastic one, of a section all of whose fibers flow
 
-// Inverse of a section's tangent. A section that flows as a whole has none: its deformation follows from the other
+// Inverse of the tangent of a section's fibers. A section that flows as a whole has none: its deformation follows from the other
 // sections and the member's by a stiffness too small to change a force.
-Matrix3 section_flexibility(const FiberSection& section, const Matrix3& tangent) {
+Matrix3 fiber_flexibility(const FiberSection& section, const Matrix3& tangent) {
   const Vector3 elastic = section.virgin.tangent.diagonal();
   const Matrix3 flexibility = tangent.inverse();
   if (flexibility.diagonal().cwiseProduct(elastic).cwiseAbs().maxCoeff() < 1 / least_stiffness) return flexibility;
@@ -122,10 +122,10 @@ void ForceBeamsOf<n>::respond_section(const FiberSection& section, const Section
 template <int n>
 auto ForceBeamsOf<n>::section_flexibility(const FiberSection& section, const SectionMatrix& tangent) -> SectionMatrix {
   if constexpr (n == 3) {
-    return tangent.inverse();
+    return fiber_flexibility(section, tangent);
   } else {
     SectionMatrix f = SectionMatrix::Zero();
-    f.template topLeftCorner<3, 3>() = tangent.template topLeftCorner<3, 3>().inverse();
+    f.template topLeftCorner<3, 3>() = fiber_flexibility(section, tangent.template topLeftCorner<3, 3>());
     for (std::size_t i = 0; i < 3; ++i) {
       const auto at = static_cast<Eigen::Index>(3 + i);
       if (i == 2 || section.added[i]) f(at, at) = 1 / tangent(at, at);

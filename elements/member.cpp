@@ -53,7 +53,7 @@ Matrix12 Members::geometric_change(int element, const Vector12& displacement, co
   Vector6 basic_force;
   Matrix6 basic_tangent;
   const Vector6 deformation = geometry_.deformation(frame, displacement, committed, trial);
-  respond_basic(element, deformation, part, geometry_.rounding(displacement), committed + own, trial + own, basic_force, basic_tangent);
+  respond_basic(element, deformation, part, geometry_.rounding(displacement), committed + own, trial + own, basic_force, &basic_tangent);
   const auto tangent_at = [&](const Vector12& u) {
     const Vector6 change = geometry_.deformation(frame, u, committed, trial) - deformation;
     Vector12 force;
