@@ -24,7 +24,7 @@ Eigen::Matrix<double, n, n> symmetric_inverse(const Eigen::Matrix<double, n, n>&
       work.col(j) -= factor * work.col(k);
     }
   }
-  return work;
+  return work * (2 * Eigen::Matrix<double, n, n>::Identity() - matrix * work);  // Newton-Schulz: the digits that pivots cost
 }
 
 }  // namespace nsframe
