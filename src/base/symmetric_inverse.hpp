@@ -10,8 +10,7 @@ namespace nsframe {
 
 template <int n>
 Eigen::Matrix<double, n, n> symmetric_inverse(const Eigen::Matrix<double, n, n>& matrix) {
-  constexpr double lost = 1e-6;   // of the diagonal
-  constexpr double apart = 1e6;   // sizes of the diagonal from which on a refinement is due
+  constexpr double lost = 1e-6;  // of the diagonal
   Eigen::Matrix<double, n, n> work = matrix;
   for (int k = 0; k < n; ++k) {
     const double pivot = work(k, k);
@@ -25,8 +24,7 @@ Eigen::Matrix<double, n, n> symmetric_inverse(const Eigen::Matrix<double, n, n>&
       work.col(j) -= factor * work.col(k);
     }
   }
-  if (matrix.diagonal().cwiseAbs().maxCoeff() < apart * matrix.diagonal().cwiseAbs().minCoeff()) return work;
-  return work * (2 * Eigen::Matrix<double, n, n>::Identity() - matrix * work);  // Newton-Schulz: digits that pivots cost
+  return work * (2 * Eigen::Matrix<double, n, n>::Identity() - matrix * work);  // Newton-Schulz: the digits that pivots cost
 }
 
 }  // namespace nsframe
