@@ -11,7 +11,7 @@ namespace nsframe {
 
 namespace {
 
-constexpr int most_events = 100000;       // in one step
+constexpr int most_events = 20000;        // in one step
 constexpr double time_quantum = 0x1p-40;  // of dt: lengths of pieces are multiples, so that their coefficients recur
 
 }  // namespace
