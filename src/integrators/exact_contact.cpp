@@ -1,4 +1,4 @@
-// Impacts and sustained contact of the scheme `exact` (theory.md, 139-141).
+// Impacts and sustained contact of the scheme `exact` (theory.md, 159-161).
 #include <fmt/format.h>
 
 #include <algorithm>

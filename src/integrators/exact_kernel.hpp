@@ -4,7 +4,7 @@
 
 namespace nsframe {
 
-// x+ = A x + B y + L f0 + R f1, y+ = -w^2 B x + (A - 2 a B) y + B f0 + L f1, with the load f0 + f1 s (theory.md, 131), of
+// x+ = A x + B y + L f0 + R f1, y+ = -w^2 B x + (A - 2 a B) y + B f0 + L f1, with the load f0 + f1 s (theory.md, 151), of
 // oscillating modes after a time s: |w s| < 39000.
 void propagate_oscillators(int padded, double s, const double* square, const double* decay, const double* damped, const double* x,
                            const double* y, const double* f0, const double* f1, double* x_after, double* y_after);

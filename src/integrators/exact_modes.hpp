@@ -1,5 +1,5 @@
 // A linear system in its natural modes, for the scheme `exact`: q = Phi x + F (f + H' lambda), x'' + 2 a x' + w^2 x =
-// Phi'(f + H' lambda) for every mode (theory.md, 130-133). Phi: all modes of finite frequency, Phi' M Phi = 1; F: flexibility of
+// Phi'(f + H' lambda) for every mode (theory.md, 150-153). Phi: all modes of finite frequency, Phi' M Phi = 1; F: flexibility of
 // what has no mass, which follows its loads at once.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Motion of modes in closed form under loads that are linear in time (theory.md, 131-132).
+// Motion of modes in closed form under loads that are linear in time (theory.md, 151-152).
 #pragma once
 
 #include <array>

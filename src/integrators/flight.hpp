@@ -1,5 +1,5 @@
 // A motion of the scheme `exact` between two events, without impulses: which gap closes first, or which sustained contact opens
-// first, with a proof that nothing was skipped (theory.md, 134, 138).
+// first, with a proof that nothing was skipped (theory.md, 154, 158).
 #pragma once
 
 #include "integrators/gap_roots.hpp"

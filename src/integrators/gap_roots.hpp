@@ -1,5 +1,5 @@
 // Where a gap can close within an interval, from its values and rates at both ends and a bound on its fourth derivative: the cubic
-// through them is off by at most bound h^4 / 384 (theory.md, 134). And first roots of polynomials in Bernstein form.
+// through them is off by at most bound h^4 / 384 (theory.md, 154). And first roots of polynomials in Bernstein form.
 #pragma once
 
 #include "base/types.hpp"

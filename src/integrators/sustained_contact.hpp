@@ -1,5 +1,5 @@
 // Sustained contact in the scheme `exact`: the forces of closed pairs as polynomials over a panel, found by collocation, drive
-// the free modes exactly (theory.md, 135-137). No modes of the constrained system are needed.
+// the free modes exactly (theory.md, 155-157). No modes of the constrained system are needed.
 #pragma once
 
 #include <map>
