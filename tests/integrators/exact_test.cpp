@@ -290,3 +290,28 @@ TEST_CASE("exact: an elastic bar of 100 elements hits a wall, stays as long as i
   CHECK(momentum / 10 == doctest::Approx(10).epsilon(0.02));
   CHECK(result.summary.worst_balance_error < 1e-12);
 }
+
+TEST_CASE("exact: nonlinear elements and damping that couples the modes are refused, each with its name") {
+  const auto reason = [](const ModelDescription& d) {
+    try {
+      run(d, exactly(1e-3, 0.1));
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  CHECK(reason(nonlinear_oscillator(100, Steel02{1e4, 1e6, 0.01}, 0, 4)).find("element 's.k' (spring) is nonlinear") != std::string::npos);
+  ModelDescription d = row({{1, 100}});
+  CHECK(reason(d) == "no error");
+  StructureDescription& s = d.structures[0];
+  s.supports[0].fixed[1] = false;  // two directions, of which a skew dashpot couples the motions
+  s.springs[0].stiffness[1] = 400;
+  s.springs.push_back(s.springs[0]);
+  s.springs[1].id = "skew";
+  s.springs[1].stiffness.setZero();
+  s.springs[1].damping[0] = 3;
+  s.springs[1].x = Vector3(1, 1, 0);
+  s.springs[1].in_plane = Vector3::UnitY();
+  const std::string why = reason(d);
+  CHECK_MESSAGE(why.find("structure '0'") != std::string::npos, why);
+}
