@@ -16,7 +16,7 @@ constexpr double force_tolerance = 1e-12;  // of released forces, relative to th
 
 }  // namespace
 
-Interpolation DisplacementBeams::strain_interpolation(double x, double L) {
+StrainInterpolation DisplacementBeams::strain_interpolation(double x, double L) {
   return {1 / L, (6 * x - 4) / L, (6 * x - 2) / L};
 }
 
@@ -43,7 +43,7 @@ DisplacementBeams::Basic DisplacementBeams::integrate(const Element& e, const Ve
                                                       double* trial, bool with_tangent) const {
   Basic basic;
   for (int i = 0; i < e.points(); ++i) {
-    const Interpolation b = strain_interpolation(e.position(i), e.frame.length);
+    const StrainInterpolation b = strain_interpolation(e.position(i), e.frame.length);
     const SectionResponse response = nsframe::respond(e.section(i), b(deformation), e.section_history(committed, i),
                                                       e.section_history(trial, i), with_tangent);
     b.add_transposed(e.weight(i), response.force, basic.force);

@@ -15,38 +15,6 @@ namespace nsframe {
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
-// Between the section (e0, kz, ky, or N, Mz, My) and the basic system at a point: e0 goes with the first basic component,
-// kz with the next two, ky with the last two in the same way.
-struct Interpolation {
-  double axial = 1, first = 0, second = 0;
-
-  // b v
-  Vector3 operator()(const Vector5& v) const {
-    return {axial * v[0], first * v[1] + second * v[2], first * v[3] + second * v[4]};
-  }
-  // sum += weight b' s
-  void add_transposed(double weight, const Vector3& s, Vector5& sum) const {
-    const Vector3 w = weight * s;
-    sum[0] += axial * w[0];
-    sum[1] += first * w[1];
-    sum[2] += second * w[1];
-    sum[3] += first * w[2];
-    sum[4] += second * w[2];
-  }
-  // sum += weight b' k b
-  void add_congruent(double weight, const Matrix3& k, Matrix5& sum) const {
-    constexpr std::array<int, 5> component{0, 1, 1, 2, 2};
-    const std::array<double, 5> b{axial, first, second, first, second};
-    for (int j = 0; j < 5; ++j) {
-      const double factor = weight * b[static_cast<std::size_t>(j)];
-      for (int i = 0; i < 5; ++i) {
-        const auto row = static_cast<std::size_t>(i), column = static_cast<std::size_t>(j);
-        sum(i, j) += factor * b[row] * k(component[row], component[column]);
-      }
-    }
-  }
-};
-
 struct FiberMember {
   BeamFrame frame;
   Quadrature rule;

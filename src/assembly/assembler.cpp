@@ -27,6 +27,14 @@ Vector12 gather(const ElementGroup& group, int element, const VectorX& full) {
   return u;
 }
 
+void add_to_nodes(const ElementGroup& group, int element, const Vector12& force, VectorX& full) {
+  const ElementNodes& nodes = group.nodes(element);
+  for (int end = 0; end < 2; ++end) {
+    const int node = nodes[static_cast<std::size_t>(end)];
+    if (node >= 0) full.segment<6>(6 * node) += force.segment<6>(6 * end);
+  }
+}
+
 }  // namespace
 
 Assembler::Assembler(const Model& model, int threads) : model_(model), threads_(std::max(1, threads)) {
@@ -192,10 +200,7 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
   full_force_.setZero(model_.dofs.full);
   for (std::size_t i = 0; i < nonlinear_.size(); ++i) {
     const Placed& placed = nonlinear_[i];
-    for (int end = 0; end < 2; ++end) {
-      const int node = placed.group->nodes(placed.element)[static_cast<std::size_t>(end)];
-      if (node >= 0) full_force_.segment<6>(6 * node) += forces_[i].segment<6>(6 * end);
-    }
+    add_to_nodes(*placed.group, placed.element, forces_[i], full_force_);
     if (with_tangent) scatter(placed, tangents_[i], tangent_.valuePtr());
   }
   force.noalias() += model_.dofs.transformation_transposed * full_force_;
@@ -214,10 +219,7 @@ RateEnergy Assembler::rate_force(const VectorX& committed, VectorX& trial, const
                                                          trial.data() + placed.history_begin, step, at_nodes, tangent);
     sum.dissipated += energy.dissipated;
     sum.stored += energy.stored;
-    for (int end = 0; end < 2; ++end) {
-      const int node = placed.group->nodes(placed.element)[static_cast<std::size_t>(end)];
-      if (node >= 0) full_force_.segment<6>(6 * node) += at_nodes.segment<6>(6 * end);
-    }
+    add_to_nodes(*placed.group, placed.element, at_nodes, full_force_);
     scatter(placed, tangent, rate_values_.data());
   }
   force.noalias() = model_.dofs.transformation_transposed * full_force_;

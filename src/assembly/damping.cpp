@@ -126,8 +126,7 @@ void assemble_damping(System& system, const SparseMatrix& stiffness, std::vector
   system.damping.viscous.resize(system.model.dofs.size(), system.model.dofs.size());
   system.damping.viscous.setFromTriplets(viscous.begin(), viscous.end());
   if (system.damping.follows_tangent()) {
-    const Eigen::Map<const VectorX> entries(stiffness.valuePtr(), stiffness.nonZeros());
-    system.damping.form_tangent(stiffness, entries, entries);
+    system.damping.form_tangent(Eigen::Map<const VectorX>(stiffness.valuePtr(), stiffness.nonZeros()), stiffness);
   }
   for (std::size_t i = 0; i < structures.size(); ++i) {
     const BlockRange range = system.assembler.blocks()[i];

@@ -2,12 +2,12 @@
 
 namespace nsframe {
 
-void Damping::form_tangent(const SparseMatrix& pattern, const VectorX& committed, const Eigen::Ref<const VectorX>& current) {
-  if (tangent.nonZeros() != pattern.nonZeros()) tangent = pattern;
-  for (int j = 0; j < pattern.outerSize(); ++j) {
-    for (int k = pattern.outerIndexPtr()[j]; k < pattern.outerIndexPtr()[j + 1]; ++k) {
+void Damping::form_tangent(const VectorX& committed, const SparseMatrix& current) {
+  if (tangent.nonZeros() != current.nonZeros()) tangent = current;
+  for (int j = 0; j < current.outerSize(); ++j) {
+    for (int k = current.outerIndexPtr()[j]; k < current.outerIndexPtr()[j + 1]; ++k) {
       // both ends of an entry belong to one structure, so to one factor
-      tangent.valuePtr()[k] = committed_factor[j] * committed[k] + current_factor[j] * current[k];
+      tangent.valuePtr()[k] = committed_factor[j] * committed[k] + current_factor[j] * current.valuePtr()[k];
     }
   }
 }

@@ -14,8 +14,8 @@ struct Damping {
   std::vector<MatrixX> modal;       // one factor U a structure (its DOFs x modes); may have no columns
 
   bool follows_tangent() const { return committed_factor.size() > 0; }
-  // Forms `tangent` from the entries of both stiffnesses; the pattern is that of an assembled stiffness.
-  void form_tangent(const SparseMatrix& pattern, const VectorX& committed, const Eigen::Ref<const VectorX>& current);
+  // Forms `tangent` from the entries of both stiffnesses.
+  void form_tangent(const VectorX& committed, const SparseMatrix& current);
 
   // force += factor * C velocity
   void add_force(const std::vector<BlockRange>& blocks, double factor, const VectorX& velocity, VectorX& force) const;

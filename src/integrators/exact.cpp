@@ -127,22 +127,23 @@ void Exact::write_state(State& trial) const {
   trial.displacement = full.head(modes_.dofs) + modes_.rest;
   modes_.shape.multiply(state_.y, full);
   trial.velocity = full.head(modes_.dofs);
-  std::vector<int> springs;
-  for (const int c : contact_.closed) {
-    if (modes_.compliant[static_cast<std::size_t>(c)]) springs.push_back(c);
-  }
-  if (springs.empty()) return;
+  if (closed_pairs(true).empty()) return;
   trial.displacement += modes_.massless_response * compliant_forces(contact_.constant + modes_.gap * state_.x);
   trial.velocity += modes_.massless_response * compliant_forces(modes_.gap * state_.y);
+}
+
+std::vector<int> Exact::closed_pairs(bool compliant) const {
+  std::vector<int> pairs;
+  for (const int c : contact_.closed) {
+    if (modes_.compliant[static_cast<std::size_t>(c)] == compliant) pairs.push_back(c);
+  }
+  return pairs;
 }
 
 // Forces of the closed compliant pairs that close these gaps (or their rates), 0 elsewhere.
 VectorX Exact::compliant_forces(const VectorX& gap) const {
   VectorX forces = VectorX::Zero(modes_.pairs());
-  std::vector<int> springs;
-  for (const int c : contact_.closed) {
-    if (modes_.compliant[static_cast<std::size_t>(c)]) springs.push_back(c);
-  }
+  const std::vector<int> springs = closed_pairs(true);
   if (springs.empty()) return forces;
   const MatrixX Y = modes_.compliance(springs, springs);
   const VectorX closing = -gap(springs), solution = Eigen::CompleteOrthogonalDecomposition<MatrixX>(Y).solve(closing);

@@ -37,6 +37,7 @@ class Exact : public Scheme {
   void end_contact(int pair, double time, StepResult& result);
   VectorX solve_forces(const System& system, const std::vector<int>& pairs, const VectorX& rhs, StepResult& result) const;
   VectorX accelerations() const;        // of the gaps, without the forces of pairs that have no compliance
+  std::vector<int> closed_pairs(bool compliant) const;
   VectorX compliant_forces(const VectorX& constant) const;
   double rate_noise(int pair) const;
   void write_state(State& trial) const;

@@ -159,10 +159,7 @@ void Exact::settle(const System& system, double time, StepResult& result) {
 
 // Rounding, and what the collocation leaves, in the gaps and rates of sustained contacts without compliance.
 void Exact::remove_drift() {
-  std::vector<int> rigid;
-  for (const int c : contact_.closed) {
-    if (!modes_.compliant[static_cast<std::size_t>(c)]) rigid.push_back(c);
-  }
+  const std::vector<int> rigid = closed_pairs(false);
   if (rigid.empty()) return;
   const VectorX scale = modes_.delassus.diagonal()(rigid).cwiseSqrt().cwiseInverse();
   Eigen::CompleteOrthogonalDecomposition<MatrixX> factor;

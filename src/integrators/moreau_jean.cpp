@@ -36,7 +36,7 @@ void MoreauJean::find_active_pairs(const System& system, const State& committed,
   }
 }
 
-void MoreauJean::predict(System& system, const State& committed, double h, State& trial, StepResult& result) {
+void MoreauJean::predict(const System& system, const State& committed, double h, State& trial, StepResult& result) {
   // v+ - v = J^-1 (G - h P - a d + M v/theta) - v/theta
   free_residual_ = load_ - h * committed.internal_force;
   if (!departure_.empty()) free_residual_ -= (options_.theta * h) * departure_.next();
@@ -54,10 +54,7 @@ void MoreauJean::evaluate(System& system, const State& committed, State& trial, 
   system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force, with_tangent);
   momentum_change_.noalias() = system.mass() * (trial.velocity - committed.velocity);
   free_residual_ = momentum_change_ + h * ((1 - theta) * committed.internal_force + theta * trial.internal_force) - load_;
-  if (system.damping.follows_tangent()) {
-    const SparseMatrix& K = system.assembler.tangent();
-    system.damping.form_tangent(K, committed.damping_stiffness, Eigen::Map<const VectorX>(K.valuePtr(), K.nonZeros()));
-  }
+  if (system.damping.follows_tangent()) system.damping.form_tangent(committed.damping_stiffness, system.assembler.tangent());
   system.damping.add_force(system.assembler.blocks(), h, mid_velocity_, free_residual_);
   if (!system.assembler.rate_dependent()) return;
   rate_energy_ = system.assembler.rate_force(committed.history, trial.history, {h, theta}, rate_force_);

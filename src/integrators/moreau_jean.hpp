@@ -27,7 +27,7 @@ class MoreauJean : public Scheme {
   class Step;
   void find_active_pairs(const System& system, const State& committed, double h, StepResult& result);
   // First guess of the velocity: the step solved with the factored stiffness and the departure from it as extrapolated.
-  void predict(System& system, const State& committed, double h, State& trial, StepResult& result);
+  void predict(const System& system, const State& committed, double h, State& trial, StepResult& result);
   // Internal force at the trial velocity; fills free_residual_ = R without the contact impulses.
   void evaluate(System& system, const State& committed, State& trial, double h, bool with_tangent);
   // Changes the velocity as an algorithm commands, then solves the contact problem on the active pairs.
