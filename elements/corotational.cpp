@@ -211,8 +211,8 @@ void CorotationalBeam::to_global(const BeamFrame& frame, const Vector12& displac
   carry_to_nodes(m, force, tangent);
 }
 
-void add_turning_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement,
-                      const double* committed, Vector12& force, Matrix12* tangent) {
+void CorotationalBeam::add_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement,
+                                const double* committed, Vector12& force, Matrix12* tangent) const {
   if (part == 0) return;
   const Motion m = find_motion(frame, displacement, committed);
   const Vector12 local = part * support_forces(load, frame.length);

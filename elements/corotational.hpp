@@ -24,13 +24,11 @@ class CorotationalBeam : public MemberGeometry {
   void to_global(const BeamFrame& frame, const Vector12& displacement, const double* committed,
                  const Vector6& basic_force, const Matrix6& basic_tangent, Vector12& force,
                  Matrix12* tangent) const override;
+  // The load turns with the member, the supports' forces act in its present axes.
+  void add_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement,
+                const double* committed, Vector12& force, Matrix12* tangent) const override;
   ElementPose pose(const BeamFrame& frame, const Vector12& displacement, const double* history) const override;
 };
-
-// Adds what `part` of a load between the ends of a corotational beam does beyond the basic forces: the load turns with the
-// member, the supports' forces act in its present axes.
-void add_turning_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement,
-                      const double* committed, Vector12& force, Matrix12* tangent);
 
 // Axial force along the present chord; the rotations of the nodes don't matter.
 class CorotationalBar : public MemberGeometry {

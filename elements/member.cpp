@@ -2,8 +2,6 @@
 
 #include <vector>
 
-#include "elements/corotational.hpp"
-
 namespace nsframe {
 
 void Members::add(const ElementNodes& nodes, std::string id, const BeamFrame& frame, int history_size, bool loaded) {
@@ -36,12 +34,7 @@ void Members::respond(int element, const Vector12& displacement, const double* c
                 tangent ? &basic_tangent : nullptr);
   geometry_.to_global(frame, displacement, committed, basic_force, basic_tangent, force, tangent);
   const MemberLoad* const acting = load(element);
-  if (!acting || acting->empty()) return;
-  if (geometry_.finite()) {
-    add_turning_load(frame, *acting, part, displacement, committed, force, tangent);
-  } else {
-    geometry_.add_load(frame, *acting, part, displacement, force, tangent);
-  }
+  if (acting && !acting->empty()) geometry_.add_load(frame, *acting, part, displacement, committed, force, tangent);
 }
 
 Matrix12 Members::geometric_change(int element, const Vector12& displacement, const Vector12& step,
@@ -59,7 +52,7 @@ Matrix12 Members::geometric_change(int element, const Vector12& displacement, co
     Vector12 force;
     Matrix12 tangent;
     geometry_.to_global(frame, u, committed, basic_force + basic_tangent * change, basic_tangent, force, &tangent);
-    if (acting && !acting->empty()) geometry_.add_load(frame, *acting, part, u, force, &tangent);
+    if (acting && !acting->empty()) geometry_.add_load(frame, *acting, part, u, committed, force, &tangent);
     return tangent;
   };
   return 0.5 * (tangent_at(displacement + step) - tangent_at(displacement - step));

@@ -44,8 +44,8 @@ class PDeltaGeometry : public LinearGeometry {
     *tangent += basic_force[0] / frame.length * (frame.chord_shift.transpose() * frame.chord_shift);
     *tangent += direction * (basic_tangent.row(0) * frame.compatibility);
   }
-  void add_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement, Vector12& force,
-                Matrix12* tangent) const override {
+  void add_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement, const double*,
+                Vector12& force, Matrix12* tangent) const override {
     nsframe::add_load(load, part, frame, true, displacement, force, tangent);
   }
 };
@@ -57,7 +57,7 @@ double MemberGeometry::rounding(const Vector12& displacement) const {
 }
 
 void MemberGeometry::add_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement,
-                              Vector12& force, Matrix12* tangent) const {
+                              const double*, Vector12& force, Matrix12* tangent) const {
   nsframe::add_load(load, part, frame, false, displacement, force, tangent);
 }
 

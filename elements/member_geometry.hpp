@@ -35,9 +35,9 @@ class MemberGeometry {
                          const Vector6& basic_force, const Matrix6& basic_tangent, Vector12& force,
                          Matrix12* tangent) const = 0;
 
-  // Adds what `part` of a load between the ends does beyond the basic forces. Not for corotational members.
+  // Adds what `part` of a load between the ends does beyond the basic forces.
   virtual void add_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement,
-                        Vector12& force, Matrix12* tangent) const;
+                        const double* committed, Vector12& force, Matrix12* tangent) const;
 
   // Where the member is, for the output; `history` as left by deformation().
   virtual ElementPose pose(const BeamFrame& frame, const Vector12& displacement, const double* history) const;

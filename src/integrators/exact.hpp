@@ -38,7 +38,7 @@ class Exact : public Scheme {
   VectorX solve_forces(const System& system, const std::vector<int>& pairs, const VectorX& rhs, StepResult& result) const;
   VectorX accelerations() const;        // of the gaps, without the forces of pairs that have no compliance
   std::vector<int> closed_pairs(bool compliant) const;
-  VectorX compliant_forces(const VectorX& constant) const;
+  VectorX compliant_forces(const VectorX& gap) const;
   double rate_noise(int pair) const;
   void write_state(State& trial) const;
 
