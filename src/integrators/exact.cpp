@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/errors.hpp"
 
@@ -11,255 +10,56 @@ namespace nsframe {
 
 namespace {
 
-constexpr int most_events = 20000;        // in one step
-constexpr double time_quantum = 0x1p-40;  // of dt: lengths of pieces are multiples, so that their coefficients recur
+const System& linear_only(const System& system) {
+  if (system.linear()) return system;
+  for (const auto& group : system.model.groups) {
+    if (group->linear() || group->size() == 0) continue;
+    std::string kind(group->kind());
+    std::replace(kind.begin(), kind.end(), '_', ' ');
+    throw InputError(fmt::format("error: scheme 'exact' is for linear scenes, and element '{}' ({}) is nonlinear; use scheme = "
+                                 "\"exponential\" or \"moreau-jean\"",
+                                 group->id(0), kind));
+  }
+  return system;
+}
 
 }  // namespace
 
 Exact::Exact(const AnalysisOptions& options, const System& system)
-    : options_(options), modes_(exact_modes(system)), propagator_(modes_), sustained_(modes_, propagator_), flight_(modes_, propagator_, sustained_) {
-  const int pairs = modes_.pairs();
-  contact_.touching.assign(static_cast<std::size_t>(pairs), false);
-  contact_.constant = modes_.gap_offset;
-  contact_impulse_ = step_impulse_ = VectorX::Zero(pairs);
-}
-
-void Exact::start(const System& system, const State& committed) {
-  VectorX padded = VectorX::Zero(modes_.padded), modal = padded;
-  padded.head(modes_.dofs) = committed.displacement;
-  modes_.projection.multiply(padded, modal);
-  state_.x = VectorX::Zero(modes_.padded);
-  state_.x.head(modes_.dofs) = modal.head(modes_.dofs);
-  padded.head(modes_.dofs) = committed.velocity;
-  modes_.projection.multiply(padded, modal);
-  state_.y = VectorX::Zero(modes_.padded);
-  state_.y.head(modes_.dofs) = modal.head(modes_.dofs);
-  state_.f0 = state_.f1 = VectorX::Zero(modes_.padded);
-  set_load(system, committed.time, 0);
-  contact_.closed.clear();
-  std::fill(contact_.touching.begin(), contact_.touching.end(), false);
-  contact_.constant = modes_.gap_offset;
-  contact_impulse_.setZero();
-  disturbed_ = true;
-  if (modes_.pairs() == 0) return;
-  gap_ = modes_.gap * state_.x + contact_.constant;
-  rate_ = modes_.gap * state_.y;
-  for (int c = 0; c < modes_.pairs(); ++c) {
-    const auto at = static_cast<std::size_t>(c);
-    const double tolerance = 1e-12 * (std::abs(contact_.constant[c]) + modes_.gap.row(c).cwiseAbs().dot(state_.x.cwiseAbs()) + 1e-6);
-    if (gap_[c] > tolerance) continue;
-    if (modes_.compliant[at]) {
-      contact_.closed.push_back(c);
-    } else if (gap_[c] < -tolerance) {
-      throw InputError(fmt::format("error: contact pair '{}' overlaps by {:.3g} m at t = {:g} s; scheme 'exact' starts from open or touching pairs",
-                                   system.contacts().pairs[at].name, -gap_[c], committed.time));
-    } else {
-      contact_.touching[at] = true;
-      contact_.constant[c] -= gap_[c];
-      gap_[c] = 0;
-    }
-  }
-}
-
-void Exact::set_load(const System& system, double time, double length) {
-  const auto& motions = system.model.motions;
-  VectorX f0 = modes_.static_load, f1 = VectorX::Zero(modes_.padded);
-  for (std::size_t i = 0; i < motions.size(); ++i) {
-    const GroundMotion& motion = motions[i];
-    // the samples around the middle of the piece: its ends may round to either side of a sample
-    const double middle = time + 0.5 * length, at = middle / motion.dt;
-    if (motion.acceleration.size() < 2 || middle < 0 || middle > motion.duration()) continue;
-    const std::size_t k = std::min(static_cast<std::size_t>(at), motion.acceleration.size() - 2);
-    const double slope = (motion.acceleration[k + 1] - motion.acceleration[k]) / motion.dt;
-    f0 += (motion.acceleration[k] + slope * (time - static_cast<double>(k) * motion.dt)) * modes_.motion_load[i];
-    f1 += slope * modes_.motion_load[i];
-  }
-  disturbed_ = disturbed_ || f1 != state_.f1;
-  state_.f0 = std::move(f0);
-  state_.f1 = std::move(f1);
-}
-
-std::vector<double> Exact::cuts(const System& system, double time, double h) const {
-  std::vector<double> cuts;
-  for (const GroundMotion& motion : system.model.motions) {
-    if (motion.acceleration.empty()) continue;
-    const double close = 1e-9 * std::min(motion.dt, h);
-    for (double k = std::max(0.0, std::ceil((time + close) / motion.dt)); k < static_cast<double>(motion.acceleration.size()); ++k) {
-      const double at = k * motion.dt - time;
-      if (at >= h - close) break;
-      if (at > close) cuts.push_back(at);
-    }
-  }
-  const double quantum = h * time_quantum;
-  for (double& cut : cuts) cut = std::round(cut / quantum) * quantum;
-  cuts.push_back(h);
-  std::sort(cuts.begin(), cuts.end());
-  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
-  return cuts;
-}
+    : flow_(options, exact_modes(linear_only(system), system.assembler.tangent())) {}
 
 void Exact::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result = StepResult{};
   result.least_gap = std::numeric_limits<double>::infinity();
-  step_impulse_.setZero();
   const bool fresh = last_displacement_.size() != committed.displacement.size() || last_displacement_ != committed.displacement ||
                      last_velocity_ != committed.velocity;
-  if (fresh) start(system, committed);
-  double done = 0;
-  for (const double cut : cuts(system, committed.time, h)) {
-    set_load(system, committed.time + done, cut - done);
-    if (fresh && done == 0) collide(system, committed.time, h, result);
-    advance(system, committed.time + done, cut - done, result);
-    done = cut;
-  }
+  if (fresh) flow_.start(system, committed);
+  flow_.clear_impulse();
+  flow_.travel(system, committed.time, h, fresh, result);
   trial.time = committed.time + h;
-  write_state(trial);
+  flow_.write(trial.displacement, trial.velocity);
   system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force);
   trial.acceleration = (trial.velocity - committed.velocity) / h;
-  trial.impulse = step_impulse_;
+  trial.impulse = flow_.impulse();
   last_displacement_ = trial.displacement;
   last_velocity_ = trial.velocity;
 }
 
-void Exact::write_state(State& trial) const {
-  VectorX full(modes_.padded);
-  modes_.shape.multiply(state_.x, full);
-  trial.displacement = full.head(modes_.dofs) + modes_.rest;
-  modes_.shape.multiply(state_.y, full);
-  trial.velocity = full.head(modes_.dofs);
-  if (closed_pairs(true).empty()) return;
-  trial.displacement += modes_.massless_response * compliant_forces(contact_.constant + modes_.gap * state_.x);
-  trial.velocity += modes_.massless_response * compliant_forces(modes_.gap * state_.y);
-}
-
-std::vector<int> Exact::closed_pairs(bool compliant) const {
-  std::vector<int> pairs;
-  for (const int c : contact_.closed) {
-    if (modes_.compliant[static_cast<std::size_t>(c)] == compliant) pairs.push_back(c);
-  }
-  return pairs;
-}
-
-// Forces of the closed compliant pairs that close these gaps (or their rates), 0 elsewhere.
-VectorX Exact::compliant_forces(const VectorX& gap) const {
-  VectorX forces = VectorX::Zero(modes_.pairs());
-  const std::vector<int> springs = closed_pairs(true);
-  if (springs.empty()) return forces;
-  const MatrixX Y = modes_.compliance(springs, springs);
-  const VectorX closing = -gap(springs), solution = Eigen::CompleteOrthogonalDecomposition<MatrixX>(Y).solve(closing);
-  forces(springs) = solution;
-  return forces;
-}
-
-// With the forces of the flight that has just been found: of rigid pairs they do no work, of compliant ones they are in the strain.
-void Exact::add_energy(double s, StepResult& result) {
-  const ModalState& end = flight_.end();
-  const double work = propagator_.load_work(state_, end, s) + sustained_.load_work(state_, flight_.forces(), s);
-  const double strain = propagator_.strain_energy(end) - propagator_.strain_energy(state_);
-  const double kinetic = 0.5 * (end.y.squaredNorm() - state_.y.squaredNorm());
-  double springs = 0, rest = 0;
-  if (!contact_.closed.empty()) {
-    const VectorX before = compliant_forces(contact_.constant + modes_.gap * state_.x), after = compliant_forces(contact_.constant + modes_.gap * end.x);
-    springs = 0.5 * (after.dot(modes_.compliance * after) - before.dot(modes_.compliance * before));
-    rest = modes_.rest_gap.dot(after - before);
-  }
-  result.strain += strain + springs + rest;
-  result.input += work + rest;
-  if (!modes_.undamped) result.damping += work - strain - springs - kinetic;
-}
-
-void Exact::advance(const System& system, double time, double length, StepResult& result) {
-  const double end = length;
-  double at = 0;
-  for (int events = 0; at < end; ++events) {
-    if (events > most_events) {
-      throw ConvergenceError(fmt::format("more than {} impacts and openings in one step at t = {:.9g} s", most_events, time + at));
-    }
-    const FlightEvent event = flight_.find(state_, contact_, end - at, at == 0, disturbed_);
-    disturbed_ = false;
-    const double s = event.time;
-    result.active_pairs = std::max(result.active_pairs, static_cast<int>(contact_.closed.size()));
-    add_energy(s, result);
-    const ContactForces& forces = flight_.forces();
-    for (std::size_t k = 0; k < forces.pairs.size(); ++k) {
-      const double impulse = SustainedContact::impulse(forces, k, s);
-      contact_impulse_[forces.pairs[k]] += impulse;
-      step_impulse_[forces.pairs[k]] += impulse;
-    }
-    std::swap(state_, flight_.end());
-    const bool last = event.kind == FlightEvent::Kind::none && s >= end - at;
-    at = last ? end : at + s;
-    if (modes_.pairs() == 0) continue;
-    gap_ = flight_.end_gap();
-    rate_ = flight_.end_rate();
-    for (int c = 0; c < modes_.pairs(); ++c) {
-      const auto i = static_cast<std::size_t>(c);
-      if (std::binary_search(contact_.closed.begin(), contact_.closed.end(), c)) continue;
-      const bool hit = event.kind == FlightEvent::Kind::closes && (c == event.pair || std::abs(gap_[c]) <= flight_.tolerance(c));
-      contact_.touching[i] = hit || gap_[c] <= flight_.tolerance(c);
-      result.least_gap = std::min(result.least_gap, gap_[c]);
-      if (contact_.touching[i]) {  // take rounding out: the gap is zero now
-        contact_.constant[c] -= gap_[c];
-        gap_[c] = 0;
-      } else if (gap_[c] > 1e6 * flight_.tolerance(c)) {
-        contact_.constant[c] = modes_.gap_offset[c];
-      }
-    }
-    remove_drift();
-    const bool opens = event.kind == FlightEvent::Kind::opens;
-    if (opens) {
-      end_contact(event.pair, time + at, result);
-      contact_.touching[static_cast<std::size_t>(event.pair)] = false;  // its force is zero: rounding may not close it again at once
-    }
-    if (event.kind != FlightEvent::Kind::none) collide(system, time + at, end - at, result);
-    if (opens && !std::binary_search(contact_.closed.begin(), contact_.closed.end(), event.pair)) contact_.touching[static_cast<std::size_t>(event.pair)] = true;
-  }
-}
-
 void Exact::save(Snapshot& snapshot) const {
-  snapshot.put("exact.x", state_.x);
-  snapshot.put("exact.y", state_.y);
-  snapshot.put("exact.f0", state_.f0);
-  snapshot.put("exact.f1", state_.f1);
-  snapshot.put("exact.constant", contact_.constant);
-  VectorX flags = VectorX::Zero(modes_.pairs());
-  for (int c = 0; c < modes_.pairs(); ++c) flags[c] = contact_.touching[static_cast<std::size_t>(c)] ? 1 : 0;
-  for (const int c : contact_.closed) flags[c] = 2;
-  snapshot.put("exact.contact", flags);
-  snapshot.put("exact.contact_impulse", contact_impulse_);
-  snapshot.put("exact.largest_approach", largest_approach_);
+  flow_.save(snapshot);
   snapshot.put("exact.displacement", last_displacement_);
   snapshot.put("exact.velocity", last_velocity_);
 }
 
 void Exact::restore(System&, const Snapshot& snapshot) {
-  state_.x = state_.y = state_.f0 = state_.f1 = VectorX::Zero(modes_.padded);
-  snapshot.read("exact.x", state_.x);
-  snapshot.read("exact.y", state_.y);
-  snapshot.read("exact.f0", state_.f0);
-  snapshot.read("exact.f1", state_.f1);
-  snapshot.read("exact.constant", contact_.constant);
-  VectorX flags = VectorX::Zero(modes_.pairs());
-  snapshot.read("exact.contact", flags);
-  contact_.closed.clear();
-  for (int c = 0; c < modes_.pairs(); ++c) {
-    contact_.touching[static_cast<std::size_t>(c)] = flags[c] == 1;
-    if (flags[c] == 2) contact_.closed.push_back(c);
-  }
-  snapshot.read("exact.contact_impulse", contact_impulse_);
-  largest_approach_ = snapshot.number("exact.largest_approach");
-  last_displacement_ = last_velocity_ = VectorX::Zero(modes_.dofs);
+  flow_.restore(snapshot);
+  last_displacement_ = last_velocity_ = VectorX::Zero(flow_.modes().dofs);
   snapshot.read("exact.displacement", last_displacement_);
   snapshot.read("exact.velocity", last_velocity_);
-  disturbed_ = true;
 }
 
 std::vector<std::string> Exact::describe() const {
-  std::vector<std::string> lines;
-  lines.push_back(fmt::format("natural modes: {}{}", modes_.dofs - modes_.massless,
-                              modes_.massless > 0 ? fmt::format(", {} DOFs without mass condensed", modes_.massless) : ""));
-  const auto springs = std::count(modes_.compliant.begin(), modes_.compliant.end(), true);
-  if (springs > 0) lines.push_back(fmt::format("{} contact pair{} reached through DOFs without mass: springs in series, without impulse", springs, springs == 1 ? "" : "s"));
+  std::vector<std::string> lines = flow_.describe();
   lines.push_back("linear, every mode in closed form; impacts located, contact by an exact active-set method");
   return lines;
 }

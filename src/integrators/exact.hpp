@@ -3,8 +3,7 @@
 // Newton's impact law; impacts that accumulate end in sustained contact, whose forces are found by collocation.
 #pragma once
 
-#include "integrators/flight.hpp"
-#include "integrators/scheme.hpp"
+#include "integrators/event_flow.hpp"
 
 namespace nsframe {
 
@@ -21,39 +20,7 @@ class Exact : public Scheme {
   std::vector<std::string> describe() const override;
 
  private:
-  void start(const System& system, const State& committed);
-  // The load of the part of the step that begins at `time`.
-  void set_load(const System& system, double time, double length);
-  // Times in (0, h] after `time` where the step is cut: samples of the motions, and its end.
-  std::vector<double> cuts(const System& system, double time, double h) const;
-  void advance(const System& system, double time, double length, StepResult& result);
-  void add_energy(double s, StepResult& result);
-  // Impacts at this time, until no gap that is zero closes any more.
-  void collide(const System& system, double time, double remaining, StepResult& result);
-  bool collide_once(const System& system, double time, double remaining, bool last, StepResult& result);
-  // Which of the touching pairs with no gap rate stay closed.
-  void settle(const System& system, double time, StepResult& result);
-  void remove_drift();
-  void end_contact(int pair, double time, StepResult& result);
-  VectorX solve_forces(const System& system, const std::vector<int>& pairs, const VectorX& rhs, StepResult& result) const;
-  VectorX accelerations() const;        // of the gaps, without the forces of pairs that have no compliance
-  std::vector<int> closed_pairs(bool compliant) const;
-  VectorX compliant_forces(const VectorX& gap) const;
-  double rate_noise(int pair) const;
-  void write_state(State& trial) const;
-
-  AnalysisOptions options_;
-  ExactModes modes_;
-  Propagator propagator_;
-  SustainedContact sustained_;
-  Flight flight_;
-  ModalState state_;
-  ContactState contact_;
-  VectorX gap_, rate_;                  // of the pairs now
-  VectorX contact_impulse_;             // of sustained contacts since they closed [N s]
-  VectorX step_impulse_;
-  double largest_approach_ = 0;         // [m/s]
-  bool disturbed_ = true;
+  EventFlow flow_;
   VectorX last_displacement_, last_velocity_;  // as written; another state is taken in anew
 };
 

@@ -76,7 +76,7 @@ BlockModes solve_block(const MatrixX& stiffness, const MatrixX& mass, bool may_m
 
 [[noreturn]] void refuse(const Structure& structure, const std::string& why) {
   Diagnostics diagnostics;
-  diagnostics.error(structure.at, fmt::format("scheme 'exact' moves structure '{}' in its natural modes, but {}; use scheme = \"moreau-jean\"",
+  diagnostics.error(structure.at, fmt::format("schemes 'exact' and 'exponential' move structure '{}' in its natural modes, but {}; use scheme = \"moreau-jean\"",
                                               structure.name, why));
   diagnostics.throw_if_any();
   throw InputError(why);
@@ -130,18 +130,6 @@ VectorX modal_damping(const System& system, const Structure& structure, BlockMod
   return own;
 }
 
-void refuse_nonlinear_elements(const System& system) {
-  if (system.linear()) return;
-  for (const auto& group : system.model.groups) {
-    if (group->linear() || group->size() == 0) continue;
-    std::string kind(group->kind());
-    std::replace(kind.begin(), kind.end(), '_', ' ');
-    throw InputError(fmt::format("error: scheme 'exact' is for linear scenes, and element '{}' ({}) is nonlinear; use scheme = "
-                                 "\"moreau-jean\"",
-                                 group->id(0), kind));
-  }
-}
-
 // What contact pairs see of the modes.
 void find_contacts(const System& system, const std::vector<BlockModes>& blocks, ExactModes& modes) {
   const Contacts& contacts = system.contacts();
@@ -171,7 +159,7 @@ void find_contacts(const System& system, const std::vector<BlockModes>& blocks, 
     const bool compliant = modes.compliance(c, c) > 1e-12 * flexible;
     modes.compliant[static_cast<std::size_t>(c)] = compliant;
     if (!compliant && modes.delassus(c, c) <= 0) {
-      throw InputError(fmt::format("error: scheme 'exact': neither side of contact pair '{}' can move", contacts.pairs[static_cast<std::size_t>(c)].name));
+      throw InputError(fmt::format("error: neither side of contact pair '{}' can move", contacts.pairs[static_cast<std::size_t>(c)].name));
     }
     if (!compliant) {
       modes.compliance.row(c).setZero();
@@ -188,8 +176,7 @@ void find_contacts(const System& system, const std::vector<BlockModes>& blocks, 
 
 }  // namespace
 
-ExactModes exact_modes(const System& system) {
-  refuse_nonlinear_elements(system);
+ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
   const Model& model = system.model;
   const int n = model.dofs.size();
   ExactModes modes;
@@ -203,12 +190,12 @@ ExactModes exact_modes(const System& system) {
   const std::vector<BlockRange>& ranges = system.assembler.blocks();
   const MatrixX H = MatrixX(model.contacts.jacobian);
   std::vector<BlockModes> blocks;
-  std::vector<MatrixX> shapes, projections;
+  std::vector<MatrixX> shapes, projections, flexibilities;
   for (std::size_t b = 0; b < ranges.size(); ++b) {
     const BlockRange& range = ranges[b];
     const int size = range.size();
     const Structure& structure = model.structures[b];
-    const MatrixX K(extract_block(system.assembler.tangent(), range)), M(extract_block(model.mass, range));
+    const MatrixX K(extract_block(stiffness, range)), M(extract_block(model.mass, range));
     BlockModes block = size == 0                    ? BlockModes{VectorX(0), MatrixX(0, 0), MatrixX(0, 0), MatrixX(0, 0)}
                        : size <= long_double_limit ? solve_block<long double>(K, M, structure.may_move_freely)
                                                    : solve_block<double>(K, M, structure.may_move_freely);
@@ -241,10 +228,12 @@ ExactModes exact_modes(const System& system) {
     modes.rest.segment(range.first, size) = block.flexibility * system.static_load.segment(range.first, size);
     shapes.push_back(std::move(shape));
     projections.push_back(std::move(projection));
+    flexibilities.push_back(block.flexibility);
     blocks.push_back(std::move(block));
   }
   modes.shape = BlockOperator(shapes, ranges);
   modes.projection = BlockOperator(projections, ranges);
+  modes.massless_flexibility = BlockOperator(flexibilities, ranges);
   find_contacts(system, blocks, modes);
   return modes;
 }

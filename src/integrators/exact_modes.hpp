@@ -1,4 +1,4 @@
-// A linear system in its natural modes, for the scheme `exact`: q = Phi x + F (f + H' lambda), x'' + 2 a x' + w^2 x =
+// A linear system in its natural modes, for the schemes `exact` and `exponential`: q = Phi x + F (f + H' lambda), x'' + 2 a x' + w^2 x =
 // Phi'(f + H' lambda) for every mode (theory.md, 150-153). Phi: all modes of finite frequency, Phi' M Phi = 1; F: flexibility of
 // what has no mass, which follows its loads at once.
 #pragma once
@@ -20,6 +20,7 @@ struct ExactModes {
   double highest = 0;                 // largest w + 2 a of the modes that contact can feel [1/s]
   bool undamped = true;
   BlockOperator shape, projection;    // Phi, Phi' M
+  BlockOperator massless_flexibility; // F
   VectorX static_load;                // Phi' F_g
   std::vector<VectorX> motion_load;   // of a unit base acceleration, one a motion
   VectorX rest;                       // F F_g, free DOFs [m]
@@ -37,7 +38,7 @@ struct ExactModes {
   int pairs() const { return static_cast<int>(compliant.size()); }
 };
 
-// Throws InputError for nonlinear elements and for damping that couples the modes, naming element or structure.
-ExactModes exact_modes(const System& system);
+// Modes under a symmetric `stiffness` (free DOFs). Throws InputError for damping that couples them, naming the structure.
+ExactModes exact_modes(const System& system, const SparseMatrix& stiffness);
 
 }  // namespace nsframe

@@ -155,17 +155,17 @@ void Propagator::bound_fourth(const ModalState& state, VectorX& bound) const {
   }
 }
 
-double Propagator::load_work(const ModalState& from, const ModalState& to, double s) const {
+double Propagator::work(const VectorX& f0, const VectorX& f1, const ModalState& from, const ModalState& to, double s) const {
   // int f y dt = [f x] - f1 int x dt, and int x dt from the equation of motion
-  double work = to.f0.dot(to.x) - from.f0.dot(from.x);
-  if (from.f1.isZero(0)) return work;
+  const double work = (f0 + s * f1).dot(to.x) - f0.dot(from.x);
+  if (f1.isZero(0)) return work;
   const Eigen::ArrayXd change = (to.y - from.y).array() + 2 * modes_.decay.array() * (to.x - from.x).array();
   const Eigen::ArrayXd integral = (s * (from.f0.array() + 0.5 * s * from.f1.array()) - change) * modes_.flexibility.array();
-  double correction = (from.f1.array() * integral).sum();
+  double correction = (f1.array() * integral).sum();
   for (const int k : modes_.special) {
     const StepCoefficients c = step_coefficients(modes_.square[k], modes_.decay[k], s);
     // A = B' + 2 a B
-    correction += from.f1[k] * static_cast<double>((c.B + 2 * modes_.decay[k] * c.L) * from.x[k] + c.L * from.y[k] + c.R * from.f0[k] +
+    correction += f1[k] * static_cast<double>((c.B + 2 * modes_.decay[k] * c.L) * from.x[k] + c.L * from.y[k] + c.R * from.f0[k] +
                                                    c.Q * from.f1[k]);
   }
   return work - correction;

@@ -207,15 +207,15 @@ void SustainedContact::move(const ModalState& from, const ContactForces& forces,
   propagator_.move(now, s - at, after);
 }
 
-double SustainedContact::load_work(const ModalState& from, const ContactForces& forces, double s) const {
+double SustainedContact::work(const VectorX& f1, const ContactForces& forces, double s) const {
   // - f1 int x dt: for oscillators (int f dt) / w^2 is missing, for the others the response's own integral
-  if (forces.empty() || from.f1.isZero(0)) return 0;
+  if (forces.empty() || f1.isZero(0)) return 0;
   double work = 0;
   for (std::size_t k = 0; k < forces.pairs.size(); ++k) {
     const auto G = modes_.gap.row(forces.pairs[k]).transpose().array();
-    double sum = (from.f1.array() * G * modes_.flexibility.array()).sum() * impulse(forces, k, s);
+    double sum = (f1.array() * G * modes_.flexibility.array()).sum() * impulse(forces, k, s);
     for (const int m : modes_.special) {
-      const double factor = from.f1[m] * modes_.gap(forces.pairs[k], m);
+      const double factor = f1[m] * modes_.gap(forces.pairs[k], m);
       for (std::size_t i = 0; i < panel_points; ++i) {
         const double at = s * gauss().point[i];
         const auto L = static_cast<double>(step_coefficients(modes_.square[m], modes_.decay[m], s - at).L);

@@ -30,8 +30,8 @@ class SustainedContact {
   // Motion under them, for a time s up to the panel's length.
   void move(const ModalState& from, const ContactForces& forces, double s, ModalState& after) const;
 
-  // What the forces change in Propagator::load_work() over a flight of length s [J].
-  double load_work(const ModalState& from, const ContactForces& forces, double s) const;
+  // What the forces change in Propagator::work() of a load with the slope f1, over a flight of length s [J].
+  double work(const VectorX& f1, const ContactForces& forces, double s) const;
 
   // Of force number k: value and slope at s, integral over [0, s], Bernstein coefficients on the panel.
   static double value(const ContactForces& forces, std::size_t k, double s);

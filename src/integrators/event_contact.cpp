@@ -1,4 +1,4 @@
-// Impacts and sustained contact of the scheme `exact` (theory.md, 159-161).
+// Impacts and sustained contact located in time (theory.md, 159-161).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 
 #include "base/errors.hpp"
 #include "contact/contact_problem.hpp"
-#include "integrators/exact.hpp"
+#include "integrators/event_flow.hpp"
 
 namespace nsframe {
 
@@ -20,11 +20,11 @@ constexpr int most_rounds = 200;
 
 }  // namespace
 
-double Exact::rate_noise(int pair) const { return 32 * epsilon * modes_.gap.row(pair).cwiseAbs().dot(state_.y.cwiseAbs()); }
+double EventFlow::rate_noise(int pair) const { return 32 * epsilon * modes_.gap.row(pair).cwiseAbs().dot(state_.y.cwiseAbs()); }
 
 // 0 <= r, W r + rhs >= 0, complementary, on some pairs. The active ones are solved again with more digits: W of a heavy mass on a light one
 // is nearly singular.
-VectorX Exact::solve_forces(const System& system, const std::vector<int>& pairs, const VectorX& rhs, StepResult& result) const {
+VectorX EventFlow::solve_forces(const System& system, const std::vector<int>& pairs, const VectorX& rhs, StepResult& result) const {
   const ContactProblem problem{modes_.delassus(pairs, pairs), rhs};
   ContactSolution solution = solve_active_set(problem, {options_.contact_tolerance, options_.max_contact_sweeps});
   result.complementarity_error = std::max(result.complementarity_error, solution.error);
@@ -61,13 +61,13 @@ VectorX Exact::solve_forces(const System& system, const std::vector<int>& pairs,
   return solution.impulse;
 }
 
-VectorX Exact::accelerations() const {
+VectorX EventFlow::accelerations() const {
   const VectorX springs = compliant_forces(contact_.constant + modes_.gap * state_.x);
   const VectorX modal = state_.f0 - 2 * modes_.decay.cwiseProduct(state_.y) - modes_.square.cwiseProduct(state_.x) + modes_.gap.transpose() * springs;
   return modes_.gap * modal;
 }
 
-void Exact::collide(const System& system, double time, double remaining, StepResult& result) {
+void EventFlow::collide(const System& system, double time, double remaining, StepResult& result) {
   if (modes_.pairs() == 0) return;
   rate_ = modes_.gap * state_.y;
   for (int round = 0; round <= most_rounds && collide_once(system, time, remaining, round == most_rounds, result); ++round) {
@@ -76,7 +76,7 @@ void Exact::collide(const System& system, double time, double remaining, StepRes
   disturbed_ = true;
 }
 
-bool Exact::collide_once(const System& system, double time, double remaining, bool last, StepResult& result) {
+bool EventFlow::collide_once(const System& system, double time, double remaining, bool last, StepResult& result) {
   std::vector<int> pairs;
   bool closing = false;
   for (int c = 0; c < modes_.pairs(); ++c) {
@@ -126,7 +126,7 @@ bool Exact::collide_once(const System& system, double time, double remaining, bo
   return true;
 }
 
-void Exact::settle(const System& system, double time, StepResult& result) {
+void EventFlow::settle(const System& system, double time, StepResult& result) {
   std::vector<int> candidates, closed;
   for (int c = 0; c < modes_.pairs(); ++c) {
     const auto i = static_cast<std::size_t>(c);
@@ -158,7 +158,7 @@ void Exact::settle(const System& system, double time, StepResult& result) {
 }
 
 // Rounding, and what the collocation leaves, in the gaps and rates of sustained contacts without compliance.
-void Exact::remove_drift() {
+void EventFlow::remove_drift() {
   const std::vector<int> rigid = closed_pairs(false);
   if (rigid.empty()) return;
   const VectorX scale = modes_.delassus.diagonal()(rigid).cwiseSqrt().cwiseInverse();
@@ -175,7 +175,7 @@ void Exact::remove_drift() {
   }
 }
 
-void Exact::end_contact(int pair, double time, StepResult& result) {
+void EventFlow::end_contact(int pair, double time, StepResult& result) {
   std::erase(contact_.closed, pair);
   contact_.touching[static_cast<std::size_t>(pair)] = true;
   const double impulse = contact_impulse_[pair];

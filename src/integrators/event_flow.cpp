@@ -1,0 +1,277 @@
+#include "integrators/event_flow.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/errors.hpp"
+
+namespace nsframe {
+
+namespace {
+
+constexpr int most_events = 20000;        // in one step
+constexpr double time_quantum = 0x1p-40;  // of dt: lengths of pieces are multiples, so that their coefficients recur
+
+}  // namespace
+
+EventFlow::EventFlow(const AnalysisOptions& options, ExactModes modes)
+    : options_(options), modes_(std::move(modes)), propagator_(modes_), sustained_(modes_, propagator_), flight_(modes_, propagator_, sustained_) {
+  const int pairs = modes_.pairs();
+  contact_.touching.assign(static_cast<std::size_t>(pairs), false);
+  contact_.constant = modes_.gap_offset;
+  contact_impulse_ = step_impulse_ = VectorX::Zero(pairs);
+}
+
+void EventFlow::start(const System& system, const State& committed) {
+  VectorX padded = VectorX::Zero(modes_.padded), modal = padded;
+  padded.head(modes_.dofs) = committed.displacement;
+  modes_.projection.multiply(padded, modal);
+  state_.x = VectorX::Zero(modes_.padded);
+  state_.x.head(modes_.dofs) = modal.head(modes_.dofs);
+  padded.head(modes_.dofs) = committed.velocity;
+  modes_.projection.multiply(padded, modal);
+  state_.y = VectorX::Zero(modes_.padded);
+  state_.y.head(modes_.dofs) = modal.head(modes_.dofs);
+  state_.f0 = state_.f1 = VectorX::Zero(modes_.padded);
+  set_load(system, committed.time, 0);
+  contact_.closed.clear();
+  std::fill(contact_.touching.begin(), contact_.touching.end(), false);
+  contact_.constant = modes_.gap_offset;
+  contact_impulse_.setZero();
+  disturbed_ = true;
+  if (modes_.pairs() == 0) return;
+  gap_ = modes_.gap * state_.x + contact_.constant;
+  rate_ = modes_.gap * state_.y;
+  for (int c = 0; c < modes_.pairs(); ++c) {
+    const auto at = static_cast<std::size_t>(c);
+    const double tolerance = 1e-12 * (std::abs(contact_.constant[c]) + modes_.gap.row(c).cwiseAbs().dot(state_.x.cwiseAbs()) + 1e-6);
+    if (gap_[c] > tolerance) continue;
+    if (modes_.compliant[at]) {
+      contact_.closed.push_back(c);
+    } else if (gap_[c] < -tolerance) {
+      throw InputError(fmt::format("error: contact pair '{}' overlaps by {:.3g} m at t = {:g} s; the scheme starts from open or touching pairs",
+                                   system.contacts().pairs[at].name, -gap_[c], committed.time));
+    } else {
+      contact_.touching[at] = true;
+      contact_.constant[c] -= gap_[c];
+      gap_[c] = 0;
+    }
+  }
+}
+
+void EventFlow::set_load(const System& system, double time, double length) {
+  const auto& motions = system.model.motions;
+  VectorX f0 = modes_.static_load, f1 = VectorX::Zero(modes_.padded);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const GroundMotion& motion = motions[i];
+    // the samples around the middle of the piece: its ends may round to either side of a sample
+    const double middle = time + 0.5 * length, at = middle / motion.dt;
+    if (motion.acceleration.size() < 2 || middle < 0 || middle > motion.duration()) continue;
+    const std::size_t k = std::min(static_cast<std::size_t>(at), motion.acceleration.size() - 2);
+    const double slope = (motion.acceleration[k + 1] - motion.acceleration[k]) / motion.dt;
+    f0 += (motion.acceleration[k] + slope * (time - static_cast<double>(k) * motion.dt)) * modes_.motion_load[i];
+    f1 += slope * modes_.motion_load[i];
+  }
+  if (force_.value.size() > 0) {
+    f0 -= force_.value + (time - force_.time) * force_.slope;
+    f1 -= force_.slope;
+  }
+  disturbed_ = disturbed_ || f1 != state_.f1;
+  state_.f0 = std::move(f0);
+  state_.f1 = std::move(f1);
+}
+
+std::vector<double> EventFlow::cuts(const System& system, double time, double h) const {
+  std::vector<double> cuts;
+  for (const GroundMotion& motion : system.model.motions) {
+    if (motion.acceleration.empty()) continue;
+    const double close = 1e-9 * std::min(motion.dt, h);
+    for (double k = std::max(0.0, std::ceil((time + close) / motion.dt)); k < static_cast<double>(motion.acceleration.size()); ++k) {
+      const double at = k * motion.dt - time;
+      if (at >= h - close) break;
+      if (at > close) cuts.push_back(at);
+    }
+  }
+  const double quantum = h * time_quantum;
+  for (double& cut : cuts) cut = std::round(cut / quantum) * quantum;
+  cuts.push_back(h);
+  std::sort(cuts.begin(), cuts.end());
+  cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+  return cuts;
+}
+
+void EventFlow::copy_to(FlowState& state) const {
+  state.modal = state_;
+  state.contact = contact_;
+  state.gap = gap_;
+  state.rate = rate_;
+  state.contact_impulse = contact_impulse_;
+  state.step_impulse = step_impulse_;
+  state.largest_approach = largest_approach_;
+}
+
+void EventFlow::go_back(const FlowState& state) {
+  state_ = state.modal;
+  contact_ = state.contact;
+  gap_ = state.gap;
+  rate_ = state.rate;
+  contact_impulse_ = state.contact_impulse;
+  step_impulse_ = state.step_impulse;
+  largest_approach_ = state.largest_approach;
+  disturbed_ = true;
+}
+
+void EventFlow::travel(const System& system, double time, double h, bool starting, StepResult& result) {
+  double done = 0;
+  for (const double cut : cuts(system, time, h)) {
+    set_load(system, time + done, cut - done);
+    if (starting && done == 0) collide(system, time, h, result);
+    advance(system, time + done, cut - done, result);
+    done = cut;
+  }
+}
+
+void EventFlow::write(VectorX& displacement, VectorX& velocity) const {
+  VectorX full(modes_.padded);
+  modes_.shape.multiply(state_.x, full);
+  displacement = full.head(modes_.dofs) + modes_.rest;
+  modes_.shape.multiply(state_.y, full);
+  velocity = full.head(modes_.dofs);
+  if (closed_pairs(true).empty()) return;
+  displacement += modes_.massless_response * compliant_forces(contact_.constant + modes_.gap * state_.x);
+  velocity += modes_.massless_response * compliant_forces(modes_.gap * state_.y);
+}
+
+std::vector<int> EventFlow::closed_pairs(bool compliant) const {
+  std::vector<int> pairs;
+  for (const int c : contact_.closed) {
+    if (modes_.compliant[static_cast<std::size_t>(c)] == compliant) pairs.push_back(c);
+  }
+  return pairs;
+}
+
+// Forces of the closed compliant pairs that close these gaps (or their rates), 0 elsewhere.
+VectorX EventFlow::compliant_forces(const VectorX& gap) const {
+  VectorX forces = VectorX::Zero(modes_.pairs());
+  const std::vector<int> springs = closed_pairs(true);
+  if (springs.empty()) return forces;
+  const MatrixX Y = modes_.compliance(springs, springs);
+  const VectorX closing = -gap(springs), solution = Eigen::CompleteOrthogonalDecomposition<MatrixX>(Y).solve(closing);
+  forces(springs) = solution;
+  return forces;
+}
+
+// With the forces of the flight that has just been found: of rigid pairs they do no work, of compliant ones they are in the strain.
+void EventFlow::add_energy(double time, double s, StepResult& result) {
+  const ModalState& end = flight_.end();
+  const auto work_of = [&](const VectorX& f0, const VectorX& f1) {
+    return propagator_.work(f0, f1, state_, end, s) + sustained_.work(f1, flight_.forces(), s);
+  };
+  const double work = work_of(state_.f0, state_.f1);
+  const double strain = propagator_.strain_energy(end) - propagator_.strain_energy(state_);
+  const double kinetic = 0.5 * (end.y.squaredNorm() - state_.y.squaredNorm());
+  double springs = 0, rest = 0;
+  if (!contact_.closed.empty()) {
+    const VectorX before = compliant_forces(contact_.constant + modes_.gap * state_.x), after = compliant_forces(contact_.constant + modes_.gap * end.x);
+    springs = 0.5 * (after.dot(modes_.compliance * after) - before.dot(modes_.compliance * before));
+    rest = modes_.rest_gap.dot(after - before);
+  }
+  const double against = force_.value.size() > 0 ? work_of(force_.value + (time - force_.time) * force_.slope, force_.slope) : 0;
+  result.strain += strain + springs + rest + against;
+  result.input += work + rest + against;
+  if (!modes_.undamped) result.damping += work - strain - springs - kinetic;
+}
+
+void EventFlow::advance(const System& system, double time, double length, StepResult& result) {
+  const double end = length;
+  double at = 0;
+  for (int events = 0; at < end; ++events) {
+    if (events > most_events) {
+      throw ConvergenceError(fmt::format("more than {} impacts and openings in one step at t = {:.9g} s", most_events, time + at));
+    }
+    const FlightEvent event = flight_.find(state_, contact_, end - at, at == 0, disturbed_);
+    disturbed_ = false;
+    const double s = event.time;
+    result.active_pairs = std::max(result.active_pairs, static_cast<int>(contact_.closed.size()));
+    add_energy(time + at, s, result);
+    const ContactForces& forces = flight_.forces();
+    for (std::size_t k = 0; k < forces.pairs.size(); ++k) {
+      const double impulse = SustainedContact::impulse(forces, k, s);
+      contact_impulse_[forces.pairs[k]] += impulse;
+      step_impulse_[forces.pairs[k]] += impulse;
+    }
+    std::swap(state_, flight_.end());
+    const bool last = event.kind == FlightEvent::Kind::none && s >= end - at;
+    at = last ? end : at + s;
+    if (modes_.pairs() == 0) continue;
+    gap_ = flight_.end_gap();
+    rate_ = flight_.end_rate();
+    for (int c = 0; c < modes_.pairs(); ++c) {
+      const auto i = static_cast<std::size_t>(c);
+      if (std::binary_search(contact_.closed.begin(), contact_.closed.end(), c)) continue;
+      const bool hit = event.kind == FlightEvent::Kind::closes && (c == event.pair || std::abs(gap_[c]) <= flight_.tolerance(c));
+      contact_.touching[i] = hit || gap_[c] <= flight_.tolerance(c);
+      result.least_gap = std::min(result.least_gap, gap_[c]);
+      if (contact_.touching[i]) {  // take rounding out: the gap is zero now
+        contact_.constant[c] -= gap_[c];
+        gap_[c] = 0;
+      } else if (gap_[c] > 1e6 * flight_.tolerance(c)) {
+        contact_.constant[c] = modes_.gap_offset[c];
+      }
+    }
+    remove_drift();
+    const bool opens = event.kind == FlightEvent::Kind::opens;
+    if (opens) {
+      end_contact(event.pair, time + at, result);
+      contact_.touching[static_cast<std::size_t>(event.pair)] = false;  // its force is zero: rounding may not close it again at once
+    }
+    if (event.kind != FlightEvent::Kind::none) collide(system, time + at, end - at, result);
+    if (opens && !std::binary_search(contact_.closed.begin(), contact_.closed.end(), event.pair)) contact_.touching[static_cast<std::size_t>(event.pair)] = true;
+  }
+}
+
+void EventFlow::save(Snapshot& snapshot) const {
+  snapshot.put("flow.x", state_.x);
+  snapshot.put("flow.y", state_.y);
+  snapshot.put("flow.f0", state_.f0);
+  snapshot.put("flow.f1", state_.f1);
+  snapshot.put("flow.constant", contact_.constant);
+  VectorX flags = VectorX::Zero(modes_.pairs());
+  for (int c = 0; c < modes_.pairs(); ++c) flags[c] = contact_.touching[static_cast<std::size_t>(c)] ? 1 : 0;
+  for (const int c : contact_.closed) flags[c] = 2;
+  snapshot.put("flow.contact", flags);
+  snapshot.put("flow.contact_impulse", contact_impulse_);
+  snapshot.put("flow.largest_approach", largest_approach_);
+  }
+
+void EventFlow::restore(const Snapshot& snapshot) {
+  state_.x = state_.y = state_.f0 = state_.f1 = VectorX::Zero(modes_.padded);
+  snapshot.read("flow.x", state_.x);
+  snapshot.read("flow.y", state_.y);
+  snapshot.read("flow.f0", state_.f0);
+  snapshot.read("flow.f1", state_.f1);
+  snapshot.read("flow.constant", contact_.constant);
+  VectorX flags = VectorX::Zero(modes_.pairs());
+  snapshot.read("flow.contact", flags);
+  contact_.closed.clear();
+  for (int c = 0; c < modes_.pairs(); ++c) {
+    contact_.touching[static_cast<std::size_t>(c)] = flags[c] == 1;
+    if (flags[c] == 2) contact_.closed.push_back(c);
+  }
+  snapshot.read("flow.contact_impulse", contact_impulse_);
+  largest_approach_ = snapshot.number("flow.largest_approach");
+  disturbed_ = true;
+}
+
+std::vector<std::string> EventFlow::describe() const {
+  std::vector<std::string> lines;
+  lines.push_back(fmt::format("natural modes: {}{}", modes_.dofs - modes_.massless,
+                              modes_.massless > 0 ? fmt::format(", {} DOFs without mass condensed", modes_.massless) : ""));
+  const auto springs = std::count(modes_.compliant.begin(), modes_.compliant.end(), true);
+  if (springs > 0) lines.push_back(fmt::format("{} contact pair{} reached through DOFs without mass: springs in series, without impulse", springs, springs == 1 ? "" : "s"));
+  return lines;
+}
+
+}  // namespace nsframe

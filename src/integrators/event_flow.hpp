@@ -1,0 +1,87 @@
+// Motion of a system in its natural modes with located impacts, openings and sustained contact (theory.md, section 15): every mode
+// moves in closed form under loads that are linear in time between samples of the motions. The schemes `exact` and `exponential` drive it.
+#pragma once
+
+#include "integrators/flight.hpp"
+#include "integrators/scheme.hpp"
+
+namespace nsframe {
+
+// Where the motion stands, so that a step can be tried and taken back.
+struct FlowState {
+  ModalState modal;
+  ContactState contact;
+  VectorX gap, rate, contact_impulse, step_impulse;
+  double largest_approach = 0;
+};
+
+// What acts in the modes beside the loads: -(value + slope (t - time)), t counted from `time`; empty for nothing.
+struct ModalForce {
+  VectorX value, slope;  // [N/sqrt(kg)], [N/s/sqrt(kg)]
+  double time = 0;       // [s]
+};
+
+class EventFlow {
+ public:
+  EventFlow(const AnalysisOptions& options, ExactModes modes);
+  EventFlow(const EventFlow&) = delete;
+  EventFlow& operator=(const EventFlow&) = delete;
+
+  const ExactModes& modes() const { return modes_; }
+  const ModalState& modal() const { return state_; }
+  const VectorX& gap() const { return gap_; }
+  void copy_to(FlowState& state) const;
+  void go_back(const FlowState& state);
+
+  void set_force(const ModalForce& force) { force_ = force; }
+  // Takes displacement and velocity of `committed` in anew. Throws InputError where a pair without compliance overlaps.
+  void start(const System& system, const State& committed);
+  // Moves on by h [s]; adds impacts, jumps and energies to `result`, work against set_force() as strain. `starting`: pairs that touch
+  // collide first.
+  void travel(const System& system, double time, double h, bool starting, StepResult& result);
+
+  // Of the pairs since clear_impulse() [N s].
+  const VectorX& impulse() const { return step_impulse_; }
+  void clear_impulse() { step_impulse_.setZero(); }
+  // Displacement and velocity of the free DOFs; what has no mass stands where static loads alone hold it.
+  void write(VectorX& displacement, VectorX& velocity) const;
+  std::vector<std::string> describe() const;
+  void save(Snapshot& snapshot) const;
+  void restore(const Snapshot& snapshot);
+
+ private:
+  // The load of the part of the step that begins at `time`.
+  void set_load(const System& system, double time, double length);
+  // Times in (0, h] after `time` where the step is cut: samples of the motions, and its end.
+  std::vector<double> cuts(const System& system, double time, double h) const;
+  void advance(const System& system, double time, double length, StepResult& result);
+  void add_energy(double time, double s, StepResult& result);
+  // Impacts at this time, until no gap that is zero closes any more.
+  void collide(const System& system, double time, double remaining, StepResult& result);
+  bool collide_once(const System& system, double time, double remaining, bool last, StepResult& result);
+  // Which of the touching pairs with no gap rate stay closed.
+  void settle(const System& system, double time, StepResult& result);
+  void remove_drift();
+  void end_contact(int pair, double time, StepResult& result);
+  VectorX solve_forces(const System& system, const std::vector<int>& pairs, const VectorX& rhs, StepResult& result) const;
+  VectorX accelerations() const;        // of the gaps, without the forces of pairs that have no compliance
+  std::vector<int> closed_pairs(bool compliant) const;
+  VectorX compliant_forces(const VectorX& gap) const;
+  double rate_noise(int pair) const;
+
+  AnalysisOptions options_;
+  ExactModes modes_;
+  Propagator propagator_;
+  SustainedContact sustained_;
+  Flight flight_;
+  ModalState state_;
+  ContactState contact_;
+  VectorX gap_, rate_;                  // of the pairs now
+  VectorX contact_impulse_;             // of sustained contacts since they closed [N s]
+  VectorX step_impulse_;
+  double largest_approach_ = 0;         // [m/s]
+  bool disturbed_ = true;
+  ModalForce force_;
+};
+
+}  // namespace nsframe
