@@ -13,6 +13,7 @@ enum class ContactSolverKind { active_set, gauss_seidel };
 struct AnalysisOptions {
   std::string scheme = "moreau-jean";  // name in the registry of schemes (integrators/schemes.hpp)
   double dt = 1e-3;                    // [s]
+  double accuracy = 0;                 // of scheme exponential: parts of dt by an error estimate, relative to the peak; 0: dt as it is
   double duration = 0;                 // [s]; 0: the length of the longest motion
   double theta = 1.0;                  // [1/2, 1]; the paper uses 1
   double gamma = 1.5;                  // activation: a pair takes part where g + gamma dt g' < 0; the paper uses 3/2

@@ -194,6 +194,8 @@ struct Summary {
   double max_penetration = 0;                     // [m]
   double max_complementarity_error = 0;
   long newton_iterations = 0, halved_steps = 0, laddered_steps = 0, factorizations = 0;
+  long evaluations = 0;                           // of all elements; 0 where the scheme does not count them
+  long rejected_parts = 0;                        // of steps, made anew with half the length
   Savings savings;
   Timing timing;
   std::vector<std::string> warnings;              // plain sentences

@@ -10,7 +10,6 @@ namespace nsframe {
 
 namespace {
 
-constexpr int dense_limit = 512;          // free DOFs of a structure up to which K is kept dense
 constexpr int parallel_elements = 4;      // below this, threads cost more than they save
 
 Vector12 gather(const ElementGroup& group, int element, const VectorX& full) {
@@ -80,7 +79,7 @@ Assembler::Assembler(const Model& model, int threads) : model_(model), threads_(
     scatter(placed, stiffness, linear_values_.data());
   }
   std::copy(linear_values_.begin(), linear_values_.end(), tangent_.valuePtr());
-  linear_operator_ = BlockOperator(tangent_, blocks_, dense_limit);
+  linear_operator_ = BlockOperator(tangent_, blocks_, dense_block_limit);
   forces_.resize(nonlinear_.size());
   tangents_.resize(nonlinear_.size());
 }

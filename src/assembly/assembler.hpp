@@ -36,6 +36,8 @@ class Assembler {
   // for tangent() where it is wanted: it costs about as much as the force.
   void internal_force(const VectorX& displacement, const VectorX& committed_history, VectorX& trial_history,
                       VectorX& force, bool with_tangent = true);
+  // The part of P(q) that linear elements carry.
+  void linear_force(const VectorX& displacement, VectorX& force) const { linear_operator_.multiply(displacement, force); }
   // dP/dq at the last internal_force() with tangent; same pattern always.
   const SparseMatrix& tangent() const { return tangent_; }
   // That was the last internal_force() of all.

@@ -13,6 +13,8 @@ struct BlockRange {
   int size() const { return last - first; }
 };
 
+inline constexpr int dense_block_limit = 512;  // rows up to which a stiffness matrix is best kept dense
+
 class BlockOperator {
  public:
   BlockOperator() = default;

@@ -190,7 +190,7 @@ ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
   const std::vector<BlockRange>& ranges = system.assembler.blocks();
   const MatrixX H = MatrixX(model.contacts.jacobian);
   std::vector<BlockModes> blocks;
-  std::vector<MatrixX> shapes, projections, flexibilities;
+  std::vector<MatrixX> shapes, projections, transposed, flexibilities;
   for (std::size_t b = 0; b < ranges.size(); ++b) {
     const BlockRange& range = ranges[b];
     const int size = range.size();
@@ -226,6 +226,7 @@ ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
       modes.motion_load[i].segment(range.first, count) = block.shape.transpose() * model.motion_load[i].segment(range.first, size);
     }
     modes.rest.segment(range.first, size) = block.flexibility * system.static_load.segment(range.first, size);
+    transposed.push_back(shape.transpose());
     shapes.push_back(std::move(shape));
     projections.push_back(std::move(projection));
     flexibilities.push_back(block.flexibility);
@@ -233,6 +234,7 @@ ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
   }
   modes.shape = BlockOperator(shapes, ranges);
   modes.projection = BlockOperator(projections, ranges);
+  modes.shape_transposed = BlockOperator(transposed, ranges);
   modes.massless_flexibility = BlockOperator(flexibilities, ranges);
   find_contacts(system, blocks, modes);
   return modes;

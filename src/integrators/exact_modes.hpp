@@ -19,7 +19,7 @@ struct ExactModes {
   std::vector<int> special;           // rigid-body, very slow, critically damped or overdamped: not by the formulas of oscillators
   double highest = 0;                 // largest w + 2 a of the modes that contact can feel [1/s]
   bool undamped = true;
-  BlockOperator shape, projection;    // Phi, Phi' M
+  BlockOperator shape, projection, shape_transposed;  // Phi, Phi' M, Phi'
   BlockOperator massless_flexibility; // F
   VectorX static_load;                // Phi' F_g
   std::vector<VectorX> motion_load;   // of a unit base acceleration, one a motion

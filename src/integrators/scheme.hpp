@@ -16,6 +16,8 @@ namespace nsframe {
 // What one accepted step did.
 struct StepResult {
   int newton_iterations = 0;
+  int evaluations = 0;               // of all elements, where the scheme counts them
+  int rejected_parts = 0;            // of the step, made anew with half the length
   int solves = 0;                    // of the linearised step
   bool guess_stood = false;          // no iteration was needed
   int active_pairs = 0;

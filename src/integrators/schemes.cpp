@@ -5,6 +5,7 @@
 
 #include "base/errors.hpp"
 #include "integrators/exact.hpp"
+#include "integrators/exponential.hpp"
 #include "integrators/moreau_jean.hpp"
 #include "integrators/scheme.hpp"
 
@@ -17,6 +18,7 @@ using Factory = std::function<std::unique_ptr<Scheme>(const AnalysisOptions&, co
 const std::map<std::string, Factory>& registry() {
   static const std::map<std::string, Factory> schemes{
       {"exact", [](const AnalysisOptions& options, const System& system) { return std::make_unique<Exact>(options, system); }},
+      {"exponential", [](const AnalysisOptions& options, const System& system) { return std::make_unique<Exponential>(options, system); }},
       {"moreau-jean", [](const AnalysisOptions& options, const System& system) { return std::make_unique<MoreauJean>(options, system); }},
   };
   return schemes;

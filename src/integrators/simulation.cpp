@@ -216,6 +216,8 @@ Summary Simulation::run(const std::vector<Observer*>& observers, const RunContro
   summary.max_complementarity_error = result.max_complementarity_error;
   summary.newton_iterations = result.newton_iterations;
   summary.halved_steps = result.halved_steps;
+  summary.evaluations = result.evaluations;
+  summary.rejected_parts = result.rejected_parts;
   summary.laddered_steps = result.laddered_steps;
   summary.ladder = std::move(result.ladder);
   summary.factorizations = scheme_->factorizations();

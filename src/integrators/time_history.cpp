@@ -23,6 +23,8 @@ void visit_sums(Sums& sums, const Visit& visit) {
   visit("laddered_steps", sums.laddered_steps);
   visit("guessed_steps", sums.guessed_steps);
   visit("solves", sums.solves);
+  visit("evaluations", sums.evaluations);
+  visit("rejected_parts", sums.rejected_parts);
   visit("quiet_fibers", sums.quiet_fibers);
   visit("quiet_samples", sums.quiet_samples);
   visit("kinetic", sums.energy.kinetic);
@@ -128,6 +130,8 @@ void TimeHistory::add(const StepResult& step) {
   report_.complementarity_error = std::max(report_.complementarity_error, step.complementarity_error);
   result_.newton_iterations += step.newton_iterations;
   result_.solves += step.solves;
+  result_.evaluations += step.evaluations;
+  result_.rejected_parts += step.rejected_parts;
   if (step.guess_stood) ++result_.guessed_steps;
   result_.max_complementarity_error = std::max(result_.max_complementarity_error, step.complementarity_error);
   result_.max_penetration = std::max(result_.max_penetration, -step.least_gap);

@@ -298,6 +298,8 @@ std::string summary_json(const Summary& summary) {
       {"max_complementarity_error", summary.max_complementarity_error},
       {"newton_iterations", summary.newton_iterations},
       {"halved_steps", summary.halved_steps},
+      {"evaluations", summary.evaluations},
+      {"rejected_parts", summary.rejected_parts},
       {"laddered_steps", summary.laddered_steps},
       {"ladder", ladder_json(summary.ladder)},
       {"factorizations", summary.factorizations},

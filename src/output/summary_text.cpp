@@ -265,6 +265,10 @@ void put_solution(Buffer& out, const Summary& summary) {
   line(out, "  iterations {} ({:.2f} a step), halved steps {}, factorizations {}", summary.newton_iterations,
        summary.steps > 0 ? double(summary.newton_iterations) / summary.steps : 0.0, summary.halved_steps,
        summary.factorizations);
+  if (summary.evaluations > 0) {
+    line(out, "  evaluations of the elements {} ({:.2f} a step), parts of steps made anew with half the length {}", summary.evaluations,
+         summary.steps > 0 ? double(summary.evaluations) / summary.steps : 0.0, summary.rejected_parts);
+  }
   put_savings(out, summary);
   put_ladder(out, summary.ladder, "step", summary.laddered_steps);
   const Timing& t = summary.timing;

@@ -156,8 +156,12 @@ void visit(Archive& ar, StageTable& s) {
 
 template <class Archive>
 void visit(Archive& ar, AnalysisOptions& a) {
-  ar(Field{"scheme", "time integration: `moreau-jean`, or `exact` for linear scenes, where `dt` only says when results are kept"}, a.scheme);
+  ar(Field{"scheme", "time integration: `moreau-jean`, `exponential`, or `exact` for linear scenes, where `dt` only says when results are kept"}, a.scheme);
   ar(Field{"dt", "time step", dimension::time, range::positive}, a.dt);
+  ar(Field{"accuracy",
+           "of scheme `exponential`: it takes parts of `dt` so that displacements are off by about this part of their peak; 0: whole steps",
+           {}, {0, 0.1}},
+     a.accuracy);
   ar(Field{"duration", "model time; 0: length of the longest motion", dimension::time, range::non_negative},
      a.duration);
   ar(Field{"theta", "of the theta-method; the paper uses 1", {}, {0.5, 1}}, a.theta);

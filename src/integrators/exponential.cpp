@@ -1,0 +1,288 @@
+#include "integrators/exponential.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/decompositions.hpp"
+#include "base/errors.hpp"
+
+namespace nsframe {
+
+namespace {
+
+constexpr int most_levels = 20;          // parts of a step down to dt / 2^20
+constexpr double fastest_growth = 1;     // [1/s], of any mode while all nonlinear elements yield
+constexpr double samples = 4;            // of a period of the fastest mode, with `accuracy`
+constexpr int most_follow_ups = 40;      // evaluations until what has no mass rests
+constexpr double follow_up = 0.1;        // part of its motion over a step that may be left to the next one
+constexpr double at_rest = 1e-8;         // of the largest displacement
+constexpr double forgetting = 1.01;      // a step; makes `memory_` be measured again from time to time
+// Shares of accuracy x peak: what is allowed to go wrong in a second, and in the force of one part (theory.md, 165).
+constexpr double error_rate = 0.1, force_error = 0.1;
+constexpr double guard = 0.02;           // part of the peak, without `accuracy`
+
+SparseMatrix symmetric_part(const SparseMatrix& matrix) { return 0.5 * (matrix + SparseMatrix(matrix.transpose())); }
+
+const System& accepted(const System& system) {
+  const char* why = nullptr;
+  if (system.assembler.rate_dependent()) why = "has elements whose force depends on the rate of deformation";
+  if (system.damping.follows_tangent()) why = "has Rayleigh damping on the committed or current stiffness";
+  if (why) throw InputError(fmt::format("error: scheme 'exponential' cannot take this scene: it {}; use scheme = \"moreau-jean\"", why));
+  return system;
+}
+
+}  // namespace
+
+double exponential_radius(double square, double s, double share, double kept) {
+  const StepCoefficients c = step_coefficients(square, 0, s);
+  const auto A = static_cast<double>(c.A), B = static_cast<double>(c.B), L = static_cast<double>(c.L), R = static_cast<double>(c.R);
+  const double change = (kept - 1) * share * square;  // r = change * x
+  Eigen::Matrix4d step;                                // of x, x', r, rate of r
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector4d from = Eigen::Vector4d::Unit(i);
+    const double x = A * from[0] + B * from[1] - L * from[2], y = -square * B * from[0] + A * from[1] - B * from[2];
+    const double r = change * (x - R * from[3]), rate = (r - from[2]) / s;
+    step.col(i) << x - R * rate, y - L * rate, r, rate;
+  }
+  return Eigen::EigenSolver<MatrixX>(MatrixX(step), false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+Exponential::Exponential(const AnalysisOptions& options, const System& system)
+    : options_(options), flow_(options, exact_modes(accepted(system), symmetric_part(system.initial_stiffness))),
+      stiffness_(symmetric_part(system.initial_stiffness), system.assembler.blocks(), dense_block_limit) {
+  const ExactModes& modes = flow_.modes();
+  for (int c = 0; c < modes.pairs(); ++c) {
+    if (!modes.compliant[static_cast<std::size_t>(c)]) continue;
+    throw InputError(fmt::format("error: scheme 'exponential' cannot take this scene: contact pair '{}' meets DOFs without mass; give them "
+                                 "mass, or use scheme = \"moreau-jean\"",
+                                 system.contacts().pairs[static_cast<std::size_t>(c)].name));
+  }
+  padded_ = VectorX::Zero(modes.padded);
+  for (std::size_t i = 0; i < system.model.motions.size(); ++i) {
+    double largest = 0;
+    for (const double a : system.model.motions[i].acceleration) largest = std::max(largest, std::abs(a));
+    modes.shape.multiply(VectorX(largest * modes.flexibility.cwiseProduct(modes.motion_load[i])), padded_);
+    scale_ += padded_.cwiseAbs().maxCoeff();
+  }
+  find_steps(system);
+  padded_.setZero();
+}
+
+void Exponential::find_steps(const System& system) {
+  const ExactModes& modes = flow_.modes();
+  mode_size_ = mode_share_ = VectorX::Zero(modes.padded);
+  VectorX unit = mode_size_, linear(modes.dofs);
+  double fastest = 0;
+  for (int k = 0; k < modes.dofs; ++k) {
+    unit[k] = 1;
+    modes.shape.multiply(unit, padded_);
+    unit[k] = 0;
+    const VectorX shape = padded_.head(modes.dofs);
+    mode_size_[k] = shape.cwiseAbs().maxCoeff();
+    if (mode_size_[k] == 0 || modes.square[k] == 0) continue;
+    system.assembler.linear_force(shape, linear);
+    mode_share_[k] = std::clamp(1 - shape.dot(linear) / modes.square[k], 0.0, 1.0);
+    fastest = std::max(fastest, std::sqrt(modes.square[k]));
+    const auto grows = [&](double s) {
+      for (const double kept : {0.0, 0.25, 0.5, 0.75}) {
+        if (std::log(exponential_radius(modes.square[k], s, mode_share_[k], kept)) > fastest_growth * s) return true;
+      }
+      return false;
+    };
+    while (least_level_ < most_levels && grows(std::ldexp(options_.dt, -least_level_))) {
+      ++least_level_;
+      unstable_ = std::sqrt(modes.square[k]);
+    }
+  }
+  active_level_ = least_level_;
+  while (options_.accuracy > 0 && active_level_ < most_levels && std::ldexp(options_.dt, -active_level_) * fastest * samples > 2 * pi) ++active_level_;
+  level_ = least_level_;
+}
+
+void Exponential::project(Residual& r) {
+  const ExactModes& modes = flow_.modes();
+  padded_.head(modes.dofs) = r.force;
+  r.modal.setZero(modes.padded);
+  modes.shape_transposed.multiply(padded_, r.modal);
+  padded_.setZero();
+  r.massless.setZero(modes.dofs);
+  if (modes.massless > 0) modes.massless_flexibility.multiply(r.force, r.massless);
+}
+
+void Exponential::evaluate(System& system, const VectorX& massless) {
+  const ExactModes& modes = flow_.modes();
+  modes.shape.multiply(flow_.modal().x, padded_);
+  displacement_ = padded_.head(modes.dofs) + modes.rest - massless;
+  padded_.setZero();
+  system.assembler.start_step(history_, trial_history_);
+  VectorX assumed = massless;
+  double last_change = 0;
+  for (int i = 0; i < most_follow_ups; ++i) {
+    system.assembler.internal_force(displacement_, history_, trial_history_, internal_, false);
+    ++evaluations_;
+    next_.force.resize(modes.dofs);
+    stiffness_.multiply(displacement_, next_.force);
+    next_.force = internal_ - next_.force;
+    project(next_);
+    const double change = (next_.massless - assumed).cwiseAbs().maxCoeff();
+    if (i > 0 && last_change > 0) memory_ = change / last_change;
+    const double motion = (next_.massless - now_.massless).cwiseAbs().maxCoeff();
+    if (memory_ * change <= follow_up * motion || change <= at_rest * displacement_.cwiseAbs().maxCoeff()) {
+      if (i == 0) memory_ = std::min(1.0, memory_ * forgetting);
+      return;
+    }
+    displacement_ -= next_.massless - assumed;
+    assumed = next_.massless;
+    last_change = change;
+  }
+  throw ConvergenceError("what has no mass does not come to rest: give it mass, or use scheme = \"moreau-jean\"");
+}
+
+double Exponential::error_ratio(const VectorX& unexpected, double s) {
+  const ExactModes& modes = flow_.modes();
+  double moved = 0, held = 0;  // by the wrong impulse of this part; by a wrong force that stays [m]
+  for (int k = 0; k < modes.dofs; ++k) {
+    const double force = mode_size_[k] * std::abs(unexpected[k]), square = std::max(modes.square[k], 1.0);
+    moved += force * std::min(0.5 * s, 2 / (square * s)) / std::sqrt(square);
+    held += force / square;
+  }
+  const double size = std::max(peak_, scale_);
+  if (size == 0) return 0;
+  active_ = active_ || held > at_rest * size;
+  if (options_.accuracy == 0) return moved / (guard * size);
+  return std::max(moved / (error_rate * s), held / force_error) / (options_.accuracy * size);
+}
+
+void Exponential::start(System& system, const State& committed) {
+  flow_.set_force({});
+  flow_.start(system, committed);
+  trial_history_ = history_ = committed.history;
+  internal_ = committed.internal_force;
+  now_.force.resize(internal_.size());
+  stiffness_.multiply(committed.displacement, now_.force);
+  now_.force = internal_ - now_.force;
+  project(now_);
+  modal_rate_ = VectorX::Zero(now_.modal.size());
+  massless_rate_ = VectorX::Zero(now_.massless.size());
+  level_ = least_level_;
+  peak_ = 0;
+  memory_ = 1;
+  active_ = false;
+  if (flow_.modes().massless == 0) return;
+  evaluate(system, now_.massless);
+  now_ = next_;
+}
+
+bool Exponential::advance(System& system, double time, double s, bool starting, StepResult& result) {
+  flow_.copy_to(before_);
+  force_ = {now_.modal, modal_rate_, time};
+  flow_.set_force(force_);
+  tried_ = StepResult{};
+  flow_.travel(system, time, s, starting, tried_);
+  evaluate(system, now_.massless + s * massless_rate_);
+  flow_.go_back(before_);
+  const double error = error_ratio(next_.modal - now_.modal - s * modal_rate_, s);
+  if (error > 1 && level_ < most_levels) {
+    ++level_;
+    return false;
+  }
+  modal_rate_ = (next_.modal - now_.modal) / s;
+  massless_rate_ = (next_.massless - now_.massless) / s;
+  force_.slope = modal_rate_;
+  flow_.set_force(force_);
+  flow_.travel(system, time, s, starting, result);
+  const double massless_work = -flow_.modes().rest.dot(next_.force - now_.force);
+  result.strain += massless_work;
+  result.input += massless_work;
+  std::swap(now_, next_);
+  std::swap(history_, trial_history_);
+  if (error < 0.125 && level_ > (active_ ? active_level_ : least_level_)) --level_;
+  return true;
+}
+
+void Exponential::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
+  result = StepResult{};
+  result.least_gap = std::numeric_limits<double>::infinity();
+  const bool fresh = last_displacement_.size() != committed.displacement.size() || last_displacement_ != committed.displacement ||
+                     last_velocity_ != committed.velocity;
+  if (fresh) start(system, committed);
+  flow_.clear_impulse();
+  evaluations_ = 0;
+  // parts of h / 2^level, in units of h / 2^most_levels
+  constexpr long whole = 1L << most_levels;
+  for (long done = 0; done < whole;) {
+    level_ = std::max(level_, active_ ? active_level_ : least_level_);
+    long part = whole >> level_;
+    while (done % part != 0) part /= 2;
+    const double from = committed.time + h * static_cast<double>(done) / whole;
+    if (advance(system, from, h * static_cast<double>(part) / whole, fresh && done == 0, result)) {
+      done += part;
+    } else {
+      ++result.rejected_parts;
+    }
+  }
+  result.evaluations = evaluations_;
+  trial.time = committed.time + h;
+  flow_.write(trial.displacement, trial.velocity);
+  trial.displacement -= now_.massless;
+  trial.velocity -= massless_rate_;
+  trial.internal_force.resize(now_.force.size());
+  stiffness_.multiply(trial.displacement, trial.internal_force);
+  trial.internal_force += now_.force;
+  trial.history = history_;
+  trial.acceleration = (trial.velocity - committed.velocity) / h;
+  trial.impulse = flow_.impulse();
+  peak_ = std::max(peak_, trial.displacement.cwiseAbs().maxCoeff());
+  last_displacement_ = trial.displacement;
+  last_velocity_ = trial.velocity;
+}
+
+void Exponential::save(Snapshot& snapshot) const {
+  flow_.save(snapshot);
+  snapshot.put("exponential.force", now_.force);
+  snapshot.put("exponential.modal_rate", modal_rate_);
+  snapshot.put("exponential.massless_rate", massless_rate_);
+  snapshot.put("exponential.peak", peak_);
+  snapshot.put("exponential.memory", memory_);
+  snapshot.put("exponential.level", static_cast<double>(level_));
+  snapshot.put("exponential.active", active_ ? 1.0 : 0.0);
+  snapshot.put("exponential.displacement", last_displacement_);
+  snapshot.put("exponential.velocity", last_velocity_);
+}
+
+void Exponential::restore(System& system, const Snapshot& snapshot) {
+  flow_.restore(snapshot);
+  const ExactModes& modes = flow_.modes();
+  now_.force = massless_rate_ = last_displacement_ = last_velocity_ = VectorX::Zero(modes.dofs);
+  modal_rate_ = VectorX::Zero(modes.padded);
+  snapshot.read("exponential.force", now_.force);
+  snapshot.read("exponential.modal_rate", modal_rate_);
+  snapshot.read("exponential.massless_rate", massless_rate_);
+  snapshot.read("exponential.displacement", last_displacement_);
+  snapshot.read("exponential.velocity", last_velocity_);
+  peak_ = snapshot.number("exponential.peak");
+  memory_ = snapshot.number("exponential.memory");
+  level_ = static_cast<int>(snapshot.number("exponential.level"));
+  active_ = snapshot.number("exponential.active") > 0;
+  project(now_);
+  trial_history_ = history_ = system.assembler.virgin_history();
+  snapshot.read("state.history", history_);
+}
+
+std::vector<std::string> Exponential::describe() const {
+  std::vector<std::string> lines = flow_.describe();
+  lines.push_back("the stiffness at rest exactly, the rest of the internal force as a load, from one evaluation of the elements a step");
+  if (least_level_ > 0) {
+    lines.push_back(fmt::format("every step in {} parts: a mode at {:.0f} Hz takes part in yielding and would grow at whole ones", 1 << least_level_,
+                                unstable_ / (2 * pi)));
+  }
+  if (options_.accuracy > 0) {
+    lines.push_back(fmt::format("parts of steps by an error estimate, accuracy {:g} of the peak; at least {} once something yields", options_.accuracy,
+                                1 << active_level_));
+  }
+  return lines;
+}
+
+}  // namespace nsframe

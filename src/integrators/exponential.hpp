@@ -1,0 +1,70 @@
+// The scheme `exponential` for nonlinear scenes (theory.md, section 16): the structure with its stiffness K at rest moves exactly, with
+// located impacts and sustained contact; what the internal force differs by, r = P(q) - K q, is a load that is linear over a step and
+// known from one evaluation of the elements. No iterations, nothing is factored. Second order, also across impacts.
+#pragma once
+
+#include "integrators/event_flow.hpp"
+
+namespace nsframe {
+
+class Exponential : public Scheme {
+ public:
+  // Throws InputError for what it cannot take: rate-dependent elements, damping that follows the tangent or couples modes, contact
+  // at DOFs without mass.
+  Exponential(const AnalysisOptions& options, const System& system);
+  std::string name() const override { return "exponential"; }
+  void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
+  ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, w}; }
+  long factorizations() const override { return 0; }
+  void save(Snapshot& snapshot) const override;
+  void restore(System& system, const Snapshot& snapshot) override;
+  std::vector<std::string> describe() const override;
+
+ private:
+  // r with what it does to the modes and to what has no mass.
+  struct Residual {
+    VectorX force, modal, massless;     // r [N], Phi' r, F r
+  };
+  void project(Residual& r);
+  void find_steps(const System& system);
+  void start(System& system, const State& committed);
+  // Evaluates the elements at the flow's end, from history_; what has no mass stands where `massless` = F r wants it, and is followed
+  // until it rests. Fills next_ and trial_history_.
+  void evaluate(System& system, const VectorX& massless);
+  // One part of a step; false, with everything as before, when its error is too large.
+  bool advance(System& system, double time, double s, bool starting, StepResult& result);
+  // Error of a part of length s, from the modal r that was not expected, relative to what the options allow.
+  double error_ratio(const VectorX& unexpected, double s);
+
+  AnalysisOptions options_;
+  EventFlow flow_;
+  BlockOperator stiffness_;             // K
+  int least_level_ = 0;                 // stable parts of dt: dt / 2^level
+  int active_level_ = 0;                // parts that sample all modes, once something has yielded
+  double unstable_ = 0;                 // frequency of the mode that wants least_level_ [rad/s]
+  VectorX mode_size_;                   // largest entry of every mode
+  VectorX mode_share_;                  // of nonlinear elements in the stiffness of every mode
+  double scale_ = 0;                    // displacement under the peak ground accelerations, statically [m]
+  // at the end of the last part
+  Residual now_;
+  VectorX modal_rate_, massless_rate_;  // of now_, over the last part
+  VectorX history_;                     // of the elements
+  double memory_ = 1;                   // part of an error of F r that one evaluation leaves
+  double peak_ = 0;                     // largest displacement so far [m]
+  int level_ = 0;
+  bool active_ = false;                 // something has yielded
+  VectorX last_displacement_, last_velocity_;
+  // work space
+  Residual next_;
+  VectorX trial_history_, displacement_, internal_, padded_;
+  ModalForce force_;
+  FlowState before_;
+  StepResult tried_;
+  int evaluations_ = 0;
+};
+
+// Spectral radius of a step of length s of one mode, w^2 = square, when nonlinear elements with `share` of its stiffness keep the part
+// `kept` of theirs: above 1 it grows.
+double exponential_radius(double square, double s, double share, double kept);
+
+}  // namespace nsframe
