@@ -111,16 +111,16 @@ void Exponential::project(Residual& r) {
   if (modes.massless > 0) modes.massless_flexibility.multiply(r.force, r.massless);
 }
 
-void Exponential::evaluate(System& system, const VectorX& massless) {
+void Exponential::evaluate(System& system, const VectorX& massless, const VectorX& committed, VectorX& trial) {
   const ExactModes& modes = flow_.modes();
   modes.shape.multiply(flow_.modal().x, padded_);
   displacement_ = padded_.head(modes.dofs) + modes.rest - massless;
   padded_.setZero();
-  system.assembler.start_step(history_, trial_history_);
+  system.assembler.start_step(committed, trial);
   VectorX assumed = massless;
   double last_change = 0;
   for (int i = 0; i < most_follow_ups; ++i) {
-    system.assembler.internal_force(displacement_, history_, trial_history_, internal_, false);
+    system.assembler.internal_force(displacement_, committed, trial, internal_, false);
     ++evaluations_;
     next_.force.resize(modes.dofs);
     stiffness_.multiply(displacement_, next_.force);
@@ -158,7 +158,7 @@ double Exponential::error_ratio(const VectorX& unexpected, double s) {
 void Exponential::start(System& system, const State& committed) {
   flow_.set_force({});
   flow_.start(system, committed);
-  trial_history_ = history_ = committed.history;
+  history_ = committed.history;
   internal_ = committed.internal_force;
   now_.force.resize(internal_.size());
   stiffness_.multiply(committed.displacement, now_.force);
@@ -171,17 +171,18 @@ void Exponential::start(System& system, const State& committed) {
   memory_ = 1;
   active_ = false;
   if (flow_.modes().massless == 0) return;
-  evaluate(system, now_.massless);
+  evaluate(system, now_.massless, committed.history, history_);
   now_ = next_;
 }
 
-bool Exponential::advance(System& system, double time, double s, bool starting, StepResult& result) {
+bool Exponential::advance(System& system, double time, double s, bool starting, const VectorX& committed, VectorX& trial,
+                          StepResult& result) {
   flow_.copy_to(before_);
   force_ = {now_.modal, modal_rate_, time};
   flow_.set_force(force_);
   tried_ = StepResult{};
   flow_.travel(system, time, s, starting, tried_);
-  evaluate(system, now_.massless + s * massless_rate_);
+  evaluate(system, now_.massless + s * massless_rate_, committed, trial);
   flow_.go_back(before_);
   const double error = error_ratio(next_.modal - now_.modal - s * modal_rate_, s);
   if (error > 1 && level_ < most_levels) {
@@ -197,7 +198,6 @@ bool Exponential::advance(System& system, double time, double s, bool starting, 
   result.strain += massless_work;
   result.input += massless_work;
   std::swap(now_, next_);
-  std::swap(history_, trial_history_);
   if (error < 0.125 && level_ > (active_ ? active_level_ : least_level_)) --level_;
   return true;
 }
@@ -212,13 +212,17 @@ void Exponential::step(System& system, const State& committed, State& trial, dou
   evaluations_ = 0;
   // parts of h / 2^level, in units of h / 2^most_levels
   constexpr long whole = 1L << most_levels;
+  const VectorX* from = &committed.history;
+  VectorX *to = &trial.history, *other = &history_;
   for (long done = 0; done < whole;) {
     level_ = std::max(level_, active_ ? active_level_ : least_level_);
     long part = whole >> level_;
     while (done % part != 0) part /= 2;
-    const double from = committed.time + h * static_cast<double>(done) / whole;
-    if (advance(system, from, h * static_cast<double>(part) / whole, fresh && done == 0, result)) {
+    const double time = committed.time + h * static_cast<double>(done) / whole, s = h * static_cast<double>(part) / whole;
+    if (advance(system, time, s, fresh && done == 0, *from, *to, result)) {
       done += part;
+      from = to;
+      std::swap(to, other);
     } else {
       ++result.rejected_parts;
     }
@@ -231,7 +235,7 @@ void Exponential::step(System& system, const State& committed, State& trial, dou
   trial.internal_force.resize(now_.force.size());
   stiffness_.multiply(trial.displacement, trial.internal_force);
   trial.internal_force += now_.force;
-  trial.history = history_;
+  if (from != &trial.history) std::swap(trial.history, history_);
   trial.acceleration = (trial.velocity - committed.velocity) / h;
   trial.impulse = flow_.impulse();
   peak_ = std::max(peak_, trial.displacement.cwiseAbs().maxCoeff());
@@ -267,8 +271,7 @@ void Exponential::restore(System& system, const Snapshot& snapshot) {
   level_ = static_cast<int>(snapshot.number("exponential.level"));
   active_ = snapshot.number("exponential.active") > 0;
   project(now_);
-  trial_history_ = history_ = system.assembler.virgin_history();
-  snapshot.read("state.history", history_);
+  history_ = system.assembler.virgin_history();
 }
 
 std::vector<std::string> Exponential::describe() const {

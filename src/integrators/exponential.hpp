@@ -28,11 +28,11 @@ class Exponential : public Scheme {
   void project(Residual& r);
   void find_steps(const System& system);
   void start(System& system, const State& committed);
-  // Evaluates the elements at the flow's end, from history_; what has no mass stands where `massless` = F r wants it, and is followed
-  // until it rests. Fills next_ and trial_history_.
-  void evaluate(System& system, const VectorX& massless);
+  // Evaluates the elements at the flow's end, with histories; what has no mass stands where `massless` = F r wants it, and is
+  // followed until it rests. Fills next_.
+  void evaluate(System& system, const VectorX& massless, const VectorX& committed, VectorX& trial);
   // One part of a step; false, with everything as before, when its error is too large.
-  bool advance(System& system, double time, double s, bool starting, StepResult& result);
+  bool advance(System& system, double time, double s, bool starting, const VectorX& committed, VectorX& trial, StepResult& result);
   // Error of a part of length s, from the modal r that was not expected, relative to what the options allow.
   double error_ratio(const VectorX& unexpected, double s);
 
@@ -48,7 +48,6 @@ class Exponential : public Scheme {
   // at the end of the last part
   Residual now_;
   VectorX modal_rate_, massless_rate_;  // of now_, over the last part
-  VectorX history_;                     // of the elements
   double memory_ = 1;                   // part of an error of F r that one evaluation leaves
   double peak_ = 0;                     // largest displacement so far [m]
   int level_ = 0;
@@ -56,7 +55,7 @@ class Exponential : public Scheme {
   VectorX last_displacement_, last_velocity_;
   // work space
   Residual next_;
-  VectorX trial_history_, displacement_, internal_, padded_;
+  VectorX history_, displacement_, internal_, padded_;
   ModalForce force_;
   FlowState before_;
   StepResult tried_;
