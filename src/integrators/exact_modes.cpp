@@ -230,6 +230,9 @@ ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
     shapes.push_back(std::move(shape));
     projections.push_back(std::move(projection));
     flexibilities.push_back(block.flexibility);
+    const Eigen::Index before = modes.massless_basis.cols();
+    modes.massless_basis.conservativeResizeLike(MatrixX::Zero(n, before + block.massless.cols()));
+    modes.massless_basis.block(range.first, before, size, block.massless.cols()) = block.massless;
     blocks.push_back(std::move(block));
   }
   modes.shape = BlockOperator(shapes, ranges);

@@ -21,6 +21,7 @@ struct ExactModes {
   bool undamped = true;
   BlockOperator shape, projection, shape_transposed;  // Phi, Phi' M, Phi'
   BlockOperator massless_flexibility; // F
+  MatrixX massless_basis;             // N: columns span the motions without mass
   VectorX static_load;                // Phi' F_g
   std::vector<VectorX> motion_load;   // of a unit base acceleration, one a motion
   VectorX rest;                       // F F_g, free DOFs [m]

@@ -17,9 +17,11 @@ constexpr double fastest_growth = 1;     // [1/s], of any mode while all nonline
 constexpr double samples = 4;            // of a period of the fastest mode, with `accuracy`
 constexpr int most_follow_ups = 40;      // evaluations until what has no mass rests
 constexpr double follow_up = 0.1;        // part of its motion over a step that may be left to the next one
-constexpr double at_rest = 1e-8;         // of the largest displacement
-constexpr double forgetting = 1.01;      // a step; makes `memory_` be measured again from time to time
-// Shares of accuracy x peak: what is allowed to go wrong in a second, and in the force of one part (theory.md, 165).
+constexpr double largest_rest = 1e-4;    // of the largest displacement, that may be left
+constexpr double at_rest = 1e-8;         // of it, that counts as none
+constexpr double slow_following = 0.3;   // memory from which a tangent is worth its factorization
+constexpr double forgetting = 0.02;      // of what `memory_` lacks to 1, a step: it is measured again and again
+// Shares of accuracy x peak: what is allowed to go wrong in a second, and in the force of one part (theory.md, 235).
 constexpr double error_rate = 0.1, force_error = 0.1;
 constexpr double guard = 0.02;           // part of the peak, without `accuracy`
 
@@ -35,15 +37,16 @@ const System& accepted(const System& system) {
 
 }  // namespace
 
-double exponential_radius(double square, double s, double share, double kept) {
-  const StepCoefficients c = step_coefficients(square, 0, s);
+double exponential_radius(double angle, double share, double kept) {
+  const double square = angle * angle;
+  const StepCoefficients c = step_coefficients(square, 0, 1);
   const auto A = static_cast<double>(c.A), B = static_cast<double>(c.B), L = static_cast<double>(c.L), R = static_cast<double>(c.R);
   const double change = (kept - 1) * share * square;  // r = change * x
-  Eigen::Matrix4d step;                                // of x, x', r, rate of r
+  Eigen::Matrix4d step;                                // of x, x', r, rate of r, in steps
   for (int i = 0; i < 4; ++i) {
     const Eigen::Vector4d from = Eigen::Vector4d::Unit(i);
     const double x = A * from[0] + B * from[1] - L * from[2], y = -square * B * from[0] + A * from[1] - B * from[2];
-    const double r = change * (x - R * from[3]), rate = (r - from[2]) / s;
+    const double r = change * (x - R * from[3]), rate = r - from[2];
     step.col(i) << x - R * rate, y - L * rate, r, rate;
   }
   return Eigen::EigenSolver<MatrixX>(MatrixX(step), false).eigenvalues().cwiseAbs().maxCoeff();
@@ -60,6 +63,8 @@ Exponential::Exponential(const AnalysisOptions& options, const System& system)
                                  system.contacts().pairs[static_cast<std::size_t>(c)].name));
   }
   padded_ = VectorX::Zero(modes.padded);
+  modes.shape.multiply(VectorX(modes.flexibility.cwiseProduct(modes.static_load)), padded_);
+  scale_ = padded_.cwiseAbs().maxCoeff();
   for (std::size_t i = 0; i < system.model.motions.size(); ++i) {
     double largest = 0;
     for (const double a : system.model.motions[i].acceleration) largest = std::max(largest, std::abs(a));
@@ -86,8 +91,8 @@ void Exponential::find_steps(const System& system) {
     mode_share_[k] = std::clamp(1 - shape.dot(linear) / modes.square[k], 0.0, 1.0);
     fastest = std::max(fastest, std::sqrt(modes.square[k]));
     const auto grows = [&](double s) {
-      for (const double kept : {0.0, 0.25, 0.5, 0.75}) {
-        if (std::log(exponential_radius(modes.square[k], s, mode_share_[k], kept)) > fastest_growth * s) return true;
+      for (const double kept : {0.01, 0.25, 0.5, 0.75}) {
+        if (std::log(exponential_radius(std::sqrt(modes.square[k]) * s, mode_share_[k], kept)) > fastest_growth * s) return true;
       }
       return false;
     };
@@ -113,28 +118,39 @@ void Exponential::project(Residual& r) {
 
 void Exponential::evaluate(System& system, const VectorX& massless, const VectorX& committed, VectorX& trial) {
   const ExactModes& modes = flow_.modes();
+  const MatrixX& N = modes.massless_basis;
   modes.shape.multiply(flow_.modal().x, padded_);
   displacement_ = padded_.head(modes.dofs) + modes.rest - massless;
   padded_.setZero();
   system.assembler.start_step(committed, trial);
-  VectorX assumed = massless;
+  next_.force.resize(modes.dofs);
+  bool tangent = false;
   double last_change = 0;
   for (int i = 0; i < most_follow_ups; ++i) {
-    system.assembler.internal_force(displacement_, committed, trial, internal_, false);
+    system.assembler.internal_force(displacement_, committed, trial, internal_, tangent);
     ++evaluations_;
-    next_.force.resize(modes.dofs);
     stiffness_.multiply(displacement_, next_.force);
     next_.force = internal_ - next_.force;
     project(next_);
-    const double change = (next_.massless - assumed).cwiseAbs().maxCoeff();
-    if (i > 0 && last_change > 0) memory_ = change / last_change;
-    const double motion = (next_.massless - now_.massless).cwiseAbs().maxCoeff();
-    if (memory_ * change <= follow_up * motion || change <= at_rest * displacement_.cwiseAbs().maxCoeff()) {
-      if (i == 0) memory_ = std::min(1.0, memory_ * forgetting);
+    if (modes.massless == 0) return;
+    if (tangent) {
+      massless_stiffness_ = N.transpose() * (system.assembler.tangent() * N);
+      massless_tangent_.compute(massless_stiffness_);
+    }
+    if (massless_stiffness_.size() > 0) {
+      follow_ = N * massless_tangent_.solve(VectorX(N.transpose() * (internal_ - system.static_load)));
+    } else {
+      modes.massless_flexibility.multiply(VectorX(internal_ - system.static_load), follow_);
+    }
+    const double change = follow_.cwiseAbs().maxCoeff();
+    if (i > 0 && last_change > 0 && !tangent) memory_ = std::min(1.0, change / last_change);
+    const double motion = (next_.massless - now_.massless).cwiseAbs().maxCoeff(), size = std::max(peak_, scale_);
+    if (memory_ * change <= std::min(follow_up * motion, largest_rest * size) || change <= at_rest * size) {
+      if (i == 0) memory_ += forgetting * (1 - memory_);
       return;
     }
-    displacement_ -= next_.massless - assumed;
-    assumed = next_.massless;
+    tangent = i > 0 && memory_ > slow_following;
+    displacement_ -= follow_;
     last_change = change;
   }
   throw ConvergenceError("what has no mass does not come to rest: give it mass, or use scheme = \"moreau-jean\"");
@@ -156,6 +172,7 @@ double Exponential::error_ratio(const VectorX& unexpected, double s) {
 }
 
 void Exponential::start(System& system, const State& committed) {
+  const ExactModes& modes = flow_.modes();
   flow_.set_force({});
   flow_.start(system, committed);
   history_ = committed.history;
@@ -167,10 +184,15 @@ void Exponential::start(System& system, const State& committed) {
   modal_rate_ = VectorX::Zero(now_.modal.size());
   massless_rate_ = VectorX::Zero(now_.massless.size());
   level_ = least_level_;
-  peak_ = 0;
+  // the first peak, from rest position and velocity
+  modes.shape.multiply(VectorX(flow_.modal().y.cwiseProduct(modes.flexibility.cwiseSqrt())), padded_);
+  peak_ = std::max(committed.displacement.cwiseAbs().maxCoeff(), padded_.cwiseAbs().maxCoeff());
+  padded_.setZero();
   memory_ = 1;
+  massless_stiffness_.resize(0, 0);
   active_ = false;
-  if (flow_.modes().massless == 0) return;
+  follow_ = VectorX::Zero(modes.dofs);
+  if (modes.massless == 0) return;
   evaluate(system, now_.massless, committed.history, history_);
   now_ = next_;
 }
@@ -250,6 +272,7 @@ void Exponential::save(Snapshot& snapshot) const {
   snapshot.put("exponential.massless_rate", massless_rate_);
   snapshot.put("exponential.peak", peak_);
   snapshot.put("exponential.memory", memory_);
+  snapshot.put("exponential.massless_stiffness", VectorX(massless_stiffness_.reshaped()));
   snapshot.put("exponential.level", static_cast<double>(level_));
   snapshot.put("exponential.active", active_ ? 1.0 : 0.0);
   snapshot.put("exponential.displacement", last_displacement_);
@@ -268,10 +291,17 @@ void Exponential::restore(System& system, const Snapshot& snapshot) {
   snapshot.read("exponential.velocity", last_velocity_);
   peak_ = snapshot.number("exponential.peak");
   memory_ = snapshot.number("exponential.memory");
+  massless_stiffness_ = MatrixX();
+  if (const auto& kept = snapshot.array("exponential.massless_stiffness"); !kept.empty()) {
+    massless_stiffness_ = Eigen::Map<const MatrixX>(kept.data(), modes.massless, modes.massless);
+    massless_tangent_.compute(massless_stiffness_);
+  }
   level_ = static_cast<int>(snapshot.number("exponential.level"));
   active_ = snapshot.number("exponential.active") > 0;
   project(now_);
   history_ = system.assembler.virgin_history();
+  follow_ = VectorX::Zero(modes.dofs);
+  internal_ = VectorX::Zero(modes.dofs);
 }
 
 std::vector<std::string> Exponential::describe() const {

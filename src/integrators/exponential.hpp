@@ -29,7 +29,7 @@ class Exponential : public Scheme {
   void find_steps(const System& system);
   void start(System& system, const State& committed);
   // Evaluates the elements at the flow's end, with histories; what has no mass stands where `massless` = F r wants it, and is
-  // followed until it rests. Fills next_.
+  // followed until it rests: by K, or by a tangent where K does not lead there quickly. Fills next_.
   void evaluate(System& system, const VectorX& massless, const VectorX& committed, VectorX& trial);
   // One part of a step; false, with everything as before, when its error is too large.
   bool advance(System& system, double time, double s, bool starting, const VectorX& committed, VectorX& trial, StepResult& result);
@@ -44,26 +44,28 @@ class Exponential : public Scheme {
   double unstable_ = 0;                 // frequency of the mode that wants least_level_ [rad/s]
   VectorX mode_size_;                   // largest entry of every mode
   VectorX mode_share_;                  // of nonlinear elements in the stiffness of every mode
-  double scale_ = 0;                    // displacement under the peak ground accelerations, statically [m]
+  double scale_ = 0;                    // displacement under static loads and peak ground accelerations, statically [m]
   // at the end of the last part
   Residual now_;
   VectorX modal_rate_, massless_rate_;  // of now_, over the last part
   double memory_ = 1;                   // part of an error of F r that one evaluation leaves
+  MatrixX massless_stiffness_;          // N' K_t N, once it was wanted
+  Eigen::PartialPivLU<MatrixX> massless_tangent_;
   double peak_ = 0;                     // largest displacement so far [m]
   int level_ = 0;
   bool active_ = false;                 // something has yielded
   VectorX last_displacement_, last_velocity_;
   // work space
   Residual next_;
-  VectorX history_, displacement_, internal_, padded_;
+  VectorX follow_, history_, displacement_, internal_, padded_;
   ModalForce force_;
   FlowState before_;
   StepResult tried_;
   int evaluations_ = 0;
 };
 
-// Spectral radius of a step of length s of one mode, w^2 = square, when nonlinear elements with `share` of its stiffness keep the part
-// `kept` of theirs: above 1 it grows.
-double exponential_radius(double square, double s, double share, double kept);
+// Spectral radius of a step of one undamped mode that turns by the angle w s, when nonlinear elements with `share` of its stiffness
+// keep the part `kept` of theirs: above 1 it grows (theory.md, 236).
+double exponential_radius(double angle, double share, double kept);
 
 }  // namespace nsframe

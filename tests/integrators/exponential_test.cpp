@@ -1,0 +1,236 @@
+// The scheme exponential: against exact where nothing is nonlinear, against Moreau-Jean at small steps where something is, its order
+// across impacts, its guards and its refusals.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "integrators/exponential.hpp"
+#include "tests/integrators/oscillators.hpp"
+
+using namespace nsframe;
+using namespace nsframe::test;
+
+namespace {
+
+AnalysisOptions by_scheme(const std::string& scheme, double dt, double duration, double accuracy = 0) {
+  AnalysisOptions o = options(0.5, dt, duration);
+  o.scheme = scheme;
+  o.accuracy = accuracy;
+  return o;
+}
+
+Run completed(const ModelDescription& d, const AnalysisOptions& o) {
+  Run result = run(d, o);
+  CAPTURE(result.summary.stop_reason);
+  REQUIRE(result.summary.completed);
+  return result;
+}
+
+// Largest difference of displacements at the times of the coarser run [m], up to `until`.
+double difference(const Run& coarse, const Run& fine, double until = 1e9) {
+  const std::size_t stride = (fine.states.size() - 1) / (coarse.states.size() - 1);
+  double largest = 0;
+  for (std::size_t i = 0; i < coarse.states.size(); ++i) {
+    const State &a = coarse.states[i], &b = fine.states[i * stride];
+    REQUIRE(a.time == doctest::Approx(b.time).epsilon(1e-12));
+    if (a.time <= until) largest = std::max(largest, (a.displacement - b.displacement).cwiseAbs().maxCoeff());
+  }
+  return largest;
+}
+
+// A yielding mass thrown at another one, both on springs with hardening: impacts while both yield.
+ModelDescription yielding_masses(const UniaxialLaw& law) {
+  ModelDescription d = nonlinear_oscillator(1000, law, 0, 1.5);
+  ModelDescription other = nonlinear_oscillator(700, law);
+  d.structures.push_back(other.structures[0]);
+  d.structures[1].name = "t";
+  ContactDescription c = wall("s.1", 0.01, 0.6);
+  c.b = Reference{"t.1", {}};
+  d.contacts = {c};
+  return d;
+}
+
+}  // namespace
+
+TEST_CASE("exponential: a linear scene moves as the exact scheme says") {
+  ModelDescription d = linear_oscillator(4600, 2.11e6, 0.005, -0.024);
+  d.structures.push_back(linear_oscillator(3500, 5.31e6, 0.005).structures[0]);
+  d.structures[1].name = "t";
+  ContactDescription c = wall("s.1", 0.02, 0.6);
+  c.b = Reference{"t.1", {}};
+  d.contacts = {c};
+  const Run exact = completed(d, by_scheme("exact", 1e-2, 2)), ours = completed(d, by_scheme("exponential", 1e-2, 2));
+  CHECK(ours.summary.impacts.size() == 3);
+  CHECK(difference(ours, exact) < 1e-12);
+  CHECK(ours.summary.evaluations == 200);
+}
+
+TEST_CASE("exponential: second order across impacts of yielding masses, to the limit of Moreau-Jean") {
+  const UniaxialLaw laws[] = {Steel02{8e3, 2e6, 0.05}, Hardening{2e6, 8e3, 0, 1e5}};
+  for (const UniaxialLaw& law : laws) {
+    const ModelDescription d = yielding_masses(law);
+    const Run fine = completed(d, by_scheme("exponential", 1.25e-5, 0.4));
+    REQUIRE_FALSE(fine.summary.impacts.empty());
+    const double coarse = difference(completed(d, by_scheme("exponential", 8e-4, 0.4)), fine),
+                 finer = difference(completed(d, by_scheme("exponential", 1e-4, 0.4)), fine);
+    CAPTURE(coarse);
+    CAPTURE(finer);
+    CHECK(std::log(coarse / finer) / std::log(8.0) > 1.8);
+    // Moreau-Jean is of first order: its limit, by extrapolation of two runs
+    const Run a = completed(d, by_scheme("moreau-jean", 5e-5, 0.4)), b = completed(d, by_scheme("moreau-jean", 1.25e-5, 0.4));
+    CHECK(difference(fine, b) < 1.2 * difference(a, b) + 1e-7);
+    CHECK(difference(a, fine) > 20 * finer);
+    CHECK(fine.summary.worst_balance_error < 1e-6);
+  }
+}
+
+TEST_CASE("exponential: fiber members with DOFs without mass, displacement- and force-based") {
+  for (const ElementKind kind : {ElementKind::displacement_beam, ElementKind::force_beam}) {
+    for (const Geometry geometry : {Geometry::linear, Geometry::p_delta, Geometry::corotational}) {
+      const ModelDescription d = fiber_pair(Steel02{235e6, 210e9, 0.02}, kind, 4, geometry);
+      const Run fine = completed(d, by_scheme("exponential", 5e-5, 0.1)), reference = completed(d, by_scheme("moreau-jean", 5e-5, 0.1));
+      CAPTURE(static_cast<int>(kind));
+      CAPTURE(static_cast<int>(geometry));
+      REQUIRE_FALSE(fine.summary.impacts.empty());
+      const double size = fine.states.back().displacement.cwiseAbs().maxCoeff();
+      CHECK(size > 0.02);
+      CHECK(difference(fine, reference) < 2e-3 * size);
+      CHECK(difference(completed(d, by_scheme("exponential", 2e-4, 0.1)), fine) < 5e-3 * size);  // four times the step
+      CHECK(fine.summary.worst_balance_error < 1e-5);
+      // a second evaluation only where what has no mass has not come to rest
+      CHECK(fine.summary.evaluations < 2200);
+    }
+  }
+}
+
+TEST_CASE("exponential: what has no mass is followed where yielding surrounds it") {
+  // a massless node between a yielding spring and a softer elastic one: one evaluation leaves two thirds of an error there
+  ModelDescription d = single_mass(1000, 0, 2);
+  StructureDescription& s = d.structures[0];
+  s.nodes.push_back(node("2", 0, 0, 1));
+  s.supports.push_back(fixed("2", {false, true, true, true, true, true}));
+  d.materials = {{"law", {}, Steel02{8e3, 2e6, 0.02}}};
+  SpringDescription lower = ground_spring("a", "2", Vector6::Zero()), upper = ground_spring("b", "2", 1e6 * Vector6::Unit(0));
+  lower.law[0] = Reference{"law", {}};
+  upper.node_j = Reference{"1", {}};
+  s.springs = {lower, upper};
+  const Run ours = completed(d, by_scheme("exponential", 1e-3, 1)), reference = completed(d, by_scheme("moreau-jean", 1e-4, 1));
+  double most = 0;
+  for (const State& state : ours.states) most = std::max(most, state.displacement.cwiseAbs().maxCoeff());
+  CHECK(most > 0.02);
+  CHECK(difference(ours, reference) < 2e-3 * most);
+  CHECK(ours.summary.evaluations > 1010);
+}
+
+TEST_CASE("exponential: accuracy is met, with work where something yields") {
+  const ModelDescription d = yielding_masses(Steel02{8e3, 2e6, 0.05});
+  const Run fine = completed(d, by_scheme("exponential", 5e-6, 0.4));
+  double peak = 0;
+  for (const State& state : fine.states) peak = std::max(peak, state.displacement.cwiseAbs().maxCoeff());
+  long last = 0;
+  for (const double accuracy : {1e-3, 1e-4, 1e-5}) {
+    const Run ours = completed(d, by_scheme("exponential", 4e-3, 0.4, accuracy));
+    CAPTURE(accuracy);
+    CHECK(difference(ours, fine) < accuracy * peak);
+    CHECK(ours.summary.evaluations > last);
+    last = ours.summary.evaluations;
+  }
+}
+
+TEST_CASE("exponential: steps are parted where a fast mode yields, and where a member stiffens") {
+  SUBCASE("the radius is the growth of the scheme itself") {
+    CHECK(exponential_radius(0.5, 1, 0.5) < 1);
+    CHECK(exponential_radius(4, 1, 0.02) > 1.05);
+    CHECK(exponential_radius(4, 1e-3, 0.02) < 1.001);
+  }
+  SUBCASE("fast") {  // a link at 600 Hz that yields: three radians a millisecond and more
+    ModelDescription d = nonlinear_oscillator(1, Steel02{50, 1.5e7, 0.01}, 0, 0.1);
+    const Model model = build(d);
+    Simulation simulation(model, by_scheme("exponential", 1e-3, 0.1));
+    bool said = false;
+    for (const std::string& line : simulation.scheme().describe()) said = said || line.find("in 2 parts") != std::string::npos;
+    CHECK(said);
+    const Run ours = completed(d, by_scheme("exponential", 1e-3, 0.1)), fine = completed(d, by_scheme("exponential", 2e-5, 0.1));
+    double peak = 0;
+    for (const State& state : fine.states) peak = std::max(peak, std::abs(state.displacement[0]));
+    CHECK(difference(ours, fine) < 0.05 * peak);
+  }
+  SUBCASE("stiffening") {  // a second spring, fifty times stiffer, behind a gap of 1 cm
+    ModelDescription d = nonlinear_oscillator(1000, ElasticPPGap{5e6, 1e9, 0.01, 0}, 0, 1);
+    d.structures[0].springs.push_back(ground_spring("soft", "1", 1e5 * Vector6::Unit(0)));
+    d.structures[0].springs.back().id = "soft";
+    const Run ours = completed(d, by_scheme("exponential", 2e-2, 1)), fine = completed(d, by_scheme("moreau-jean", 5e-5, 1));
+    double peak = 0;
+    for (const State& state : fine.states) peak = std::max(peak, std::abs(state.displacement[0]));
+    CHECK(ours.summary.rejected_parts > 0);
+    CHECK(difference(ours, fine) < 0.1 * peak);
+    CHECK(difference(completed(d, by_scheme("exponential", 1e-3, 1, 1e-4)), fine) < 1e-3 * peak);
+  }
+}
+
+TEST_CASE("exponential: a yielding column pressed against a wall neither drifts nor opens") {
+  ModelDescription d = nonlinear_oscillator(1000, Steel02{8e3, 2e6, 0.05});
+  MotionDescription motion;
+  motion.dt = 0.5;
+  motion.acceleration = {0, -12, -12, -12, 0, 5, 5};
+  d.motions = {motion};
+  d.contacts = {wall("s.1", 0.02, 0.3)};
+  const Run ours = completed(d, by_scheme("exponential", 1e-3, 3));
+  double drift = 0, back = 0;
+  int held = 0;
+  for (const State& state : ours.states) {
+    if (state.time > 1 && state.time < 1.5) {
+      drift = std::max(drift, std::abs(state.displacement[0] - 0.02));
+      ++held;
+    }
+    back = std::max(back, state.displacement[0]);
+  }
+  CHECK(held > 400);
+  CHECK(drift < 1e-12);
+  CHECK(back < 0.02 + 1e-12);
+  CHECK(ours.states.back().displacement[0] < 0.015);
+}
+
+TEST_CASE("exponential: a run that goes on from a snapshot has the same bits") {
+  const Model model = build(fiber_pair(Steel02{235e6, 210e9, 0.02}, ElementKind::displacement_beam, 4));
+  const AnalysisOptions o = by_scheme("exponential", 1e-3, 0.1, 1e-3);
+  Simulation whole(model, o);
+  whole.run({});
+  Snapshot snapshot;
+  int steps = 0;
+  RunControl stop;
+  stop.stop_requested = [&] { return ++steps > 43; };
+  stop.keep_snapshot = [&](const Snapshot& kept) { snapshot = kept; };
+  Simulation first(model, o);
+  CHECK_FALSE(first.run({}, stop).completed);
+  RunControl go_on;
+  go_on.resume = &snapshot;
+  Simulation second(model, o);
+  CHECK(second.run({}, go_on).completed);
+  CHECK(second.state().displacement == whole.state().displacement);
+  CHECK(second.state().velocity == whole.state().velocity);
+}
+
+TEST_CASE("exponential: what it cannot take is refused by name") {
+  const auto refusal = [](const ModelDescription& d) -> std::string {
+    try {
+      const Model model = build(d);
+      Simulation simulation(model, by_scheme("exponential", 1e-3, 1));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  ModelDescription rate = nonlinear_oscillator(1000, Viscous{1e3, 0.5}, 0, 1);
+  rate.structures[0].springs.push_back(ground_spring("stiff", "1", 1e6 * Vector6::Unit(0)));
+  CHECK(refusal(rate).find("rate of deformation") != std::string::npos);
+  ModelDescription massless = nonlinear_oscillator(1000, Steel02{8e3, 2e6, 0.02});
+  StructureDescription& s = massless.structures[0];
+  s.nodes.push_back(node("2", 0, 0, 1));
+  s.supports.push_back(fixed("2", {false, true, true, true, true, true}));
+  SpringDescription tip = ground_spring("tip", "2", 1e6 * Vector6::Unit(0));
+  tip.node_j = Reference{"1", {}};
+  s.springs.push_back(tip);
+  massless.contacts = {wall("s.2", 0.01, 0.5)};
+  CHECK(refusal(massless).find("meets DOFs without mass") != std::string::npos);
+}
