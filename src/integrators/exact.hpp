@@ -16,6 +16,7 @@ class Exact : public Scheme {
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, w}; }
   long factorizations() const override { return 0; }
+  bool shorter_steps_help() const override { return false; }
   void save(Snapshot& snapshot) const override;
   void restore(System& system, const Snapshot& snapshot) override;
   std::vector<std::string> describe() const override;
@@ -27,6 +28,7 @@ class Exact : public Scheme {
   // Times in (0, h] after `time` where the step is cut: samples of the motions, and its end.
   std::vector<double> cuts(const System& system, double time, double h) const;
   void advance(const System& system, double time, double length, StepResult& result);
+  [[noreturn]] void refuse_to_go_on(const System& system, double time, double interval) const;
   void add_energy(double s, StepResult& result);
   // Impacts at this time, until no gap that is zero closes any more.
   void collide(const System& system, double time, double remaining, StepResult& result);

@@ -143,9 +143,11 @@ void Exact::settle(const System& system, double time, StepResult& result) {
   std::swap(contact_.closed, springs);
   if (!candidates.empty()) {
     const VectorX force = solve_forces(system, candidates, acceleration(candidates), result);
+    const VectorX noise = sustained_.force_noise(state_, candidates);
     const double most = force.maxCoeff();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-      if (force[static_cast<Eigen::Index>(k)] > 1e-12 * most) closed.push_back(candidates[k]);
+      const auto i = static_cast<Eigen::Index>(k);
+      if (force[i] > std::max(1e-12 * most, noise[i])) closed.push_back(candidates[k]);
     }
   }
   std::sort(closed.begin(), closed.end());

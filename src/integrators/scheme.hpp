@@ -47,6 +47,9 @@ class Scheme {
 
   virtual long factorizations() const = 0;
 
+  // Whether a step that threw ConvergenceError is worth trying in halves.
+  virtual bool shorter_steps_help() const { return true; }
+
   // What `nsframe check` says of it, a line each.
   virtual std::vector<std::string> describe() const { return {}; }
 

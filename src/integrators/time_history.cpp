@@ -105,7 +105,7 @@ void TimeHistory::advance(const State& committed, State& trial, double h, int ha
     add(step_);
   } catch (const ConvergenceError&) {
     record_ladder(committed);
-    if (halvings >= options_.max_halvings) throw;
+    if (halvings >= options_.max_halvings || !scheme_.shorter_steps_help()) throw;
     ++result_.halved_steps;
     ++report_.substeps;
     State middle = committed;
