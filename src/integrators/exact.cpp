@@ -17,7 +17,7 @@ constexpr double time_quantum = 0x1p-40;  // of dt: lengths of pieces are multip
 }  // namespace
 
 Exact::Exact(const AnalysisOptions& options, const System& system)
-    : options_(options), modes_(exact_modes(system)), propagator_(modes_), sustained_(modes_, propagator_), flight_(modes_, propagator_, sustained_) {
+    : options_(options), modes_(exact_modes(system, options.scheme_at)), propagator_(modes_), sustained_(modes_, propagator_), flight_(modes_, propagator_, sustained_) {
   const int pairs = modes_.pairs();
   contact_.touching.assign(static_cast<std::size_t>(pairs), false);
   contact_.constant = modes_.gap_offset;

@@ -13,10 +13,16 @@ namespace nsframe {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-// An approach slower than this part of the fastest one so far ends an accumulation of impacts.
-constexpr double slowest_approach = 1e-8;
+// An approach slower than this part of the fastest one so far ends an accumulation of impacts, if the bounce would rise by less than
+// that part of what the gap is made of.
+constexpr double slowest_approach = 1e-8, least_bounce = 1e-13;
 // Impacts at one time one after another; then all touching pairs together, and plastically, end them.
-constexpr int most_rounds = 200;
+constexpr int most_rounds = 2000;
+
+// How far a gap opens that leaves with this rate under this acceleration [m].
+double bounce(double rate, double acceleration) {
+  return acceleration < 0 ? rate * rate / (-2 * acceleration) : rate == 0 ? 0 : std::numeric_limits<double>::infinity();
+}
 
 }  // namespace
 
@@ -93,12 +99,20 @@ bool Exact::collide_once(const System& system, double time, double remaining, bo
   double fastest = 0;
   for (const int c : pairs) fastest = std::max(fastest, -rate_[c]);
   largest_approach_ = std::max(largest_approach_, fastest);
+  const VectorX pull = accelerations();
+  std::vector<bool> ends(pairs.size(), false);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const int c = pairs[k];
-    const bool slow = last || -rate_[c] < slowest_approach * largest_approach_;
-    const double e = slow ? 0 : system.contacts().restitution[c];
-    rhs[static_cast<Eigen::Index>(k)] = (1 + e) * rate_[c];
+    const double e = system.contacts().restitution[c], rise = bounce(e * rate_[c], pull[c]);
+    const double size = std::abs(contact_.constant[c]) + modes_.gap.row(c).cwiseAbs().dot(state_.x.cwiseAbs());
+    ends[k] = -rate_[c] < slowest_approach * largest_approach_ && rise <= least_bounce * size;
+    if (ends[k] && rate_[c] < -rate_noise(c)) {
+      ++result.accumulations.ended;
+      result.accumulations.largest_bounce = std::max(result.accumulations.largest_bounce, rise);
+    }
+    rhs[static_cast<Eigen::Index>(k)] = (1 + (last || ends[k] ? 0 : e)) * rate_[c];
   }
+  if (last) ++result.accumulations.plastic;
   const VectorX impulse = solve_forces(system, pairs, rhs, result);
   VectorX change = VectorX::Zero(modes_.dofs);
   const VectorX before = rate_;
@@ -117,9 +131,9 @@ bool Exact::collide_once(const System& system, double time, double remaining, bo
     step_impulse_[c] += p;
     result.contact -= 0.5 * p * (before[c] + rate_[c]);
     // the rest of an accumulation: it would have ended after the sum of its ever shorter flights
-    const double e = system.contacts().restitution[c], slow = slowest_approach * largest_approach_;
+    const double e = system.contacts().restitution[c];
     double rest = 0;
-    if (-before[c] < slow && e < 1 && acceleration[c] < 0) rest = -2 * e * before[c] / (-acceleration[c] * (1 - e));
+    if (ends[k] && e < 1 && acceleration[c] < 0) rest = -2 * e * before[c] / (-acceleration[c] * (1 - e));
     result.impacts.push_back({time + std::min(rest, remaining), c, -before[c], p, before[c], rate_[c]});
   }
   result.jumps.push_back({time, std::move(change)});

@@ -130,18 +130,6 @@ VectorX modal_damping(const System& system, const Structure& structure, BlockMod
   return own;
 }
 
-void refuse_nonlinear_elements(const System& system) {
-  if (system.linear()) return;
-  for (const auto& group : system.model.groups) {
-    if (group->linear() || group->size() == 0) continue;
-    std::string kind(group->kind());
-    std::replace(kind.begin(), kind.end(), '_', ' ');
-    throw InputError(fmt::format("error: scheme 'exact' is for linear scenes, and element '{}' ({}) is nonlinear; use scheme = "
-                                 "\"moreau-jean\"",
-                                 group->id(0), kind));
-  }
-}
-
 // What contact pairs see of the modes.
 void find_contacts(const System& system, const std::vector<BlockModes>& blocks, ExactModes& modes) {
   const Contacts& contacts = system.contacts();
@@ -188,8 +176,24 @@ void find_contacts(const System& system, const std::vector<BlockModes>& blocks, 
 
 }  // namespace
 
-ExactModes exact_modes(const System& system) {
-  refuse_nonlinear_elements(system);
+std::string nonlinear_element(const System& system) {
+  if (system.linear()) return {};
+  for (const auto& group : system.model.groups) {
+    if (group->linear() || group->size() == 0) continue;
+    std::string kind(group->kind());
+    std::replace(kind.begin(), kind.end(), '_', ' ');
+    return fmt::format("element '{}' ({})", group->id(0), kind);
+  }
+  return "a load";
+}
+
+ExactModes exact_modes(const System& system, const Location& at) {
+  const std::string nonlinear = nonlinear_element(system);
+  Diagnostics diagnostics;
+  if (!nonlinear.empty()) {
+    diagnostics.error(at, fmt::format("scheme 'exact' is for linear scenes, and {} is nonlinear; use scheme = \"moreau-jean\"", nonlinear));
+  }
+  diagnostics.throw_if_any();
   const Model& model = system.model;
   const int n = model.dofs.size();
   ExactModes modes;

@@ -3,6 +3,7 @@
 // what has no mass, which follows its loads at once.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "assembly/system.hpp"
@@ -37,7 +38,11 @@ struct ExactModes {
   int pairs() const { return static_cast<int>(compliant.size()); }
 };
 
-// Throws InputError for nonlinear elements and for damping that couples the modes, naming element or structure.
-ExactModes exact_modes(const System& system);
+// The first nonlinear element and its kind, as "element 'a' (spring)"; empty when there is none.
+std::string nonlinear_element(const System& system);
+
+// Throws InputError for nonlinear elements and for damping that couples the modes, naming element or structure; `at`: where the scene
+// asks for the scheme.
+ExactModes exact_modes(const System& system, const Location& at = {});
 
 }  // namespace nsframe

@@ -25,6 +25,7 @@ struct StepResult {
   std::vector<Impact> impacts;
   std::vector<VelocityJump> jumps;   // in the order of time
   std::vector<Attempt> attempts;     // of the solution algorithms, also when the step failed
+  Accumulations accumulations;       // ended in this step
   // increments over the step [J]; kinetic and strain energy are those of Energy
   double strain = 0, damping = 0, contact = 0, numerical = 0, input = 0;
 };
@@ -60,6 +61,7 @@ class Scheme {
 
 // The scheme of that name. Throws InputError for an unknown one.
 std::unique_ptr<Scheme> make_scheme(const AnalysisOptions& options, const System& system);
+// All of them, and "auto" (scheme_choice.hpp).
 std::vector<std::string> scheme_names();
 
 }  // namespace nsframe

@@ -191,7 +191,8 @@ ContactForces SustainedContact::solve(const ModalState& state, const VectorX& ga
 
 VectorX SustainedContact::force_noise(const ModalState& state, const std::vector<int>& pairs) const {
   const auto count = static_cast<Eigen::Index>(pairs.size());
-  const VectorX terms = state.f0.cwiseAbs() + 2 * modes_.decay.cwiseProduct(state.y.cwiseAbs()) + modes_.square.cwiseProduct(state.x.cwiseAbs());
+  // a load that passes through zero is rounded as it was before and will be after
+  const VectorX terms = state.f0.cwiseAbs() + longest_panel * state.f1.cwiseAbs() + 2 * modes_.decay.cwiseProduct(state.y.cwiseAbs()) + modes_.square.cwiseProduct(state.x.cwiseAbs());
   VectorX acceleration(count), scale(count);
   for (Eigen::Index c = 0; c < count; ++c) {
     const int pair = pairs[static_cast<std::size_t>(c)];

@@ -156,7 +156,11 @@ void visit(Archive& ar, StageTable& s) {
 
 template <class Archive>
 void visit(Archive& ar, AnalysisOptions& a) {
-  ar(Field{"scheme", "time integration: `moreau-jean`, or `exact` for linear scenes, where `dt` only says when results are kept"}, a.scheme);
+  ar(Field{"scheme",
+           "time integration: `moreau-jean`; `exact` for linear scenes, where `dt` only says when results are kept; `auto`: `exact` where "
+           "it can be, else `moreau-jean`, which options of its own (`theta`, `gamma`, `newton_tolerance`, `max_newton`, `max_halvings`, "
+           "`contact_solver`) also choose when no scheme is given"},
+     a.scheme);
   ar(Field{"dt", "time step", dimension::time, range::positive}, a.dt);
   ar(Field{"duration", "model time; 0: length of the longest motion", dimension::time, range::non_negative},
      a.duration);

@@ -1,0 +1,57 @@
+#include "integrators/scheme_choice.hpp"
+
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "integrators/exact_modes.hpp"
+
+namespace nsframe {
+
+namespace {
+
+// Free DOFs of one structure: its dense eigen-solve takes about a second, and so does the product of its modes, n^2, in a
+// thousand kept results.
+constexpr int most_dofs = 1000;
+
+// Why `exact` is not for this scene; empty when it may be.
+std::string reason_against_exact(const System& system, const State& start) {
+  const std::string nonlinear = nonlinear_element(system);
+  if (!nonlinear.empty()) return nonlinear + " is nonlinear";
+  for (const Structure& structure : system.model.structures) {
+    const int dofs = structure.last_dof - structure.first_dof;
+    if (dofs > most_dofs) return fmt::format("structure '{}' has {} free DOFs, and all its modes are worth finding up to {}", structure.name, dofs, most_dofs);
+  }
+  const Contacts& contacts = system.contacts();
+  if (contacts.size() == 0) return {};
+  if (!system.model.stages.empty()) return "contact pairs may overlap after static stages, in which they do not act";
+  const VectorX gap = contacts.jacobian * start.displacement + contacts.initial_gap;
+  Eigen::Index least = 0;
+  gap.minCoeff(&least);
+  const double size = start.displacement.cwiseAbs().maxCoeff() + contacts.initial_gap.cwiseAbs().maxCoeff() + 1e-6;
+  if (gap[least] < -1e-12 * size) {
+    return fmt::format("contact pair '{}' overlaps by {:.3g} m at the start", contacts.pairs[static_cast<std::size_t>(least)].name, -gap[least]);
+  }
+  return {};
+}
+
+}  // namespace
+
+SchemeChoice choose_scheme(const AnalysisOptions& options, const System& system, const State& start) {
+  if (options.scheme != "auto") {
+    return {make_scheme(options, system), options.scheme_reason.empty() ? "asked for" : options.scheme_reason};
+  }
+  AnalysisOptions chosen = options;
+  std::string against = reason_against_exact(system, start);
+  if (against.empty()) {
+    chosen.scheme = "exact";
+    try {
+      return {make_scheme(chosen, system), "the scene is linear: every mode moves in closed form"};
+    } catch (const InputError& refusal) {
+      against = refusal.what();
+    }
+  }
+  chosen.scheme = "moreau-jean";
+  return {make_scheme(chosen, system), fmt::format("not exact: {}", against)};
+}
+
+}  // namespace nsframe
