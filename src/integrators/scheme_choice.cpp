@@ -9,8 +9,8 @@ namespace nsframe {
 
 namespace {
 
-// Free DOFs of one structure: its dense eigen-solve takes about a second, and so does the product of its modes, n^2, in a
-// thousand kept results.
+// Free DOFs of one structure: its dense eigen-solve takes one or two seconds then, and grows as n^3; so does, as n^2, the product
+// of its modes in a thousand kept results.
 constexpr int most_dofs = 1000;
 
 // Why `exact` is not for this scene; empty when it may be.
