@@ -17,7 +17,10 @@ constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // that part of what the gap is made of.
 constexpr double slowest_approach = 1e-8, least_bounce = 1e-13;
 // Impacts at one time one after another; then all touching pairs together, and plastically, end them.
-constexpr int most_rounds = 2000;
+constexpr int most_rounds = 20000;
+// Rounds between two looks for a sequence that repeats itself, smaller, every so many rounds.
+constexpr int looks = 120, period = 12;
+constexpr double same = 1e-9;
 
 // How far a gap opens that leaves with this rate under this acceleration [m].
 double bounce(double rate, double acceleration) {
@@ -76,10 +79,29 @@ VectorX Exact::accelerations() const {
 void Exact::collide(const System& system, double time, double remaining, StepResult& result) {
   if (modes_.pairs() == 0) return;
   rate_ = modes_.gap * state_.y;
-  for (int round = 0; round <= most_rounds && collide_once(system, time, remaining, round == most_rounds, result); ++round) {
+  VectorX before;
+  bool ends = false;  // the limit of infinitely many impacts: theory.md (172)
+  for (int round = 0; round <= most_rounds; ++round) {
+    const bool last = ends || round == most_rounds;
+    if (!collide_once(system, time, remaining, last, result)) break;
+    if (ends) ++result.accumulations.ended;
+    if (last && !ends) ++result.accumulations.plastic;
+    if (last) break;
+    if (round > 0 && round % looks == 0) before = rate_;
+    if (round > looks && round % looks == period) ends = shrinks(before);
   }
   settle(system, time, result);
   disturbed_ = true;
+}
+
+bool Exact::shrinks(const VectorX& before) const {
+  std::vector<int> touching;
+  for (int c = 0; c < modes_.pairs(); ++c) {
+    if (contact_.touching[static_cast<std::size_t>(c)] || std::binary_search(contact_.closed.begin(), contact_.closed.end(), c)) touching.push_back(c);
+  }
+  const VectorX was = before(touching), is = rate_(touching);
+  const double factor = is.dot(was) / was.squaredNorm();
+  return factor > 0 && factor < 1 && (is - factor * was).norm() <= same * was.norm();
 }
 
 bool Exact::collide_once(const System& system, double time, double remaining, bool last, StepResult& result) {
@@ -89,7 +111,7 @@ bool Exact::collide_once(const System& system, double time, double remaining, bo
     const auto i = static_cast<std::size_t>(c);
     if (modes_.compliant[i]) continue;
     const bool closed = std::binary_search(contact_.closed.begin(), contact_.closed.end(), c);
-    const double noise = rate_noise(c);
+    const double noise = std::max(rate_noise(c), epsilon * largest_approach_);
     if (!closed && (!contact_.touching[i] || (rate_[c] > noise && !last))) continue;
     pairs.push_back(c);
     closing = closing || rate_[c] < -noise;
@@ -112,7 +134,6 @@ bool Exact::collide_once(const System& system, double time, double remaining, bo
     }
     rhs[static_cast<Eigen::Index>(k)] = (1 + (last || ends[k] ? 0 : e)) * rate_[c];
   }
-  if (last) ++result.accumulations.plastic;
   const VectorX impulse = solve_forces(system, pairs, rhs, result);
   VectorX change = VectorX::Zero(modes_.dofs);
   const VectorX before = rate_;

@@ -85,6 +85,8 @@ void check_run(const Row& row) {
   double scale = std::abs(summary.energy.input);
   for (const Oscillator& b : row.bodies) scale += 0.5 * b.stiffness * b.displacement * b.displacement + 0.5 * b.mass * b.velocity * b.velocity;
   RC_LOG() << " balance " << summary.energy.balance_error() << " contact " << summary.energy.contact << " of " << scale << "\n";
+  RC_ASSERT(summary.accumulations.plastic == 0);
+  RC_ASSERT(summary.accumulations.largest_bounce < 1e-13);  // [m], of gaps and displacements below 1 m
   RC_ASSERT(summary.max_penetration < 1e-9);
   RC_ASSERT(summary.energy.contact > -1e-10 * scale);
   RC_ASSERT(std::abs(summary.energy.balance_error()) <= 1e-9 * scale);
@@ -100,6 +102,25 @@ void check_run(const Row& row) {
 }
 
 }  // namespace
+
+TEST_CASE("exact: a slow approach that nothing pushes is an impact with its e, and no end of an accumulation") {
+  ModelDescription d;
+  const double slow = 5e-9, e = 0.6;  // [m/s]: beside an impact at 1 m/s
+  d.structures = {oscillator(0, {1, 0, 0, 0, 1}), oscillator(1, {1, 0, 0}), oscillator(2, {1, 0, 0, 0, slow}), oscillator(3, {1, 0, 0})};
+  d.contacts = {contact_of(0, 1, 0.01, e), contact_of(2, 3, 1e-9, e)};
+  const Model model = build(d);
+  AnalysisOptions options;
+  options.scheme = "exact";
+  options.dt = 0.1;
+  options.duration = 0.4;
+  Simulation simulation(model, options);
+  const Summary summary = simulation.run({});
+  REQUIRE(summary.impacts.size() == 2);
+  CHECK(summary.accumulations.ended == 0);
+  const VectorX& v = simulation.state().velocity;
+  CHECK((v[3] - v[2]) / slow == doctest::Approx(e).epsilon(1e-9));
+  CHECK(v[1] - v[0] == doctest::Approx(e).epsilon(1e-14));
+}
 
 TEST_CASE("exact: random rows of masses never overlap, never gain energy, and keep the balance of momentum") {
   CHECK(rc::check([] {  // a hundred times
