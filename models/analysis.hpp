@@ -6,12 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostics.hpp"
+
 namespace nsframe {
 
 enum class ContactSolverKind { active_set, gauss_seidel };
 
 struct AnalysisOptions {
-  std::string scheme = "moreau-jean";  // name in the registry of schemes (integrators/schemes.hpp)
+  std::string scheme = "auto";         // name in the registry of schemes (integrators/schemes.cpp), or "auto" (scheme_choice.hpp)
+  Location scheme_at;                  // where the scene names it
+  std::string scheme_reason;           // when the scene names none, but gives options of one
   double dt = 1e-3;                    // [s]
   double accuracy = 0;                 // of scheme exponential: parts of dt by an error estimate, relative to the peak; 0: dt as it is
   double duration = 0;                 // [s]; 0: the length of the longest motion

@@ -169,12 +169,19 @@ struct Savings {
   long factorizations_avoided = 0;     // solutions with factors of an earlier iteration or step
 };
 
+// Where the scheme `exact` ended ever faster impacts (theory.md, 171-172).
+struct Accumulations {
+  long ended = 0;                      // whose further bounces would have been smaller than rounding lets one see
+  double largest_bounce = 0;           // of those left out [m]
+  long plastic = 0;                    // impacts at one time that did not end: made plastic
+};
+
 struct Timing {
   double setup = 0, step_loop = 0, output = 0;  // [s]
 };
 
 struct Summary {
-  std::string title, scheme;
+  std::string title, scheme, scheme_reason;
   double dt = 0, duration = 0, theta = 0, gamma = 0;
   int steps = 0, dofs = 0, nodes = 0, elements = 0, fibers = 0;
   std::vector<std::string> structures;
@@ -196,6 +203,7 @@ struct Summary {
   long newton_iterations = 0, halved_steps = 0, laddered_steps = 0, factorizations = 0;
   long evaluations = 0;                           // of all elements; 0 where the scheme does not count them
   long rejected_parts = 0;                        // of steps, made anew with half the length
+  Accumulations accumulations;
   Savings savings;
   Timing timing;
   std::vector<std::string> warnings;              // plain sentences

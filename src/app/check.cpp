@@ -63,14 +63,17 @@ void print_solution(const LoadedScene& loaded, Simulation& simulation) {
   }
   if (!simulation.stages().empty() && !(simulation.duration() > 0)) return;
   const std::vector<std::string> own = simulation.scheme().describe();
+  const std::string name = simulation.scheme().name();
   if (!own.empty()) {
-    fmt::print("scheme {}: results every {:g} ms, {} steps to {:g} s\n", analysis.scheme, 1e3 * analysis.dt,
+    fmt::print("scheme {}: results every {:g} ms, {} steps to {:g} s\n", name, 1e3 * analysis.dt,
                std::lround(simulation.duration() / analysis.dt), simulation.duration());
+    fmt::print("  chosen because: {}\n", simulation.scheme_reason());
     for (const std::string& line : own) fmt::print("  {}\n", line);
     return;
   }
-  fmt::print("scheme {}: theta = {:g}, gamma = {:g}, dt = {:g} ms, {} steps to {:g} s\n", analysis.scheme, analysis.theta,
+  fmt::print("scheme {}: theta = {:g}, gamma = {:g}, dt = {:g} ms, {} steps to {:g} s\n", name, analysis.theta,
              analysis.gamma, 1e3 * analysis.dt, std::lround(simulation.duration() / analysis.dt), simulation.duration());
+  fmt::print("  chosen because: {}\n", simulation.scheme_reason());
   const std::string algorithms = fmt::format("{}", fmt::join(analysis.algorithm, ", "));
   fmt::print("solution: {}; contact by {}\n",
              simulation.system().linear() ? std::string("linear, the iteration matrix is factored once")

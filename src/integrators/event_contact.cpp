@@ -13,10 +13,19 @@ namespace nsframe {
 namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-// An approach slower than this part of the fastest one so far ends an accumulation of impacts.
-constexpr double slowest_approach = 1e-8;
+// An approach slower than this part of the fastest one so far ends an accumulation of impacts, if the bounce would rise by less than
+// that part of what the gap is made of.
+constexpr double slowest_approach = 1e-8, least_bounce = 1e-13;
 // Impacts at one time one after another; then all touching pairs together, and plastically, end them.
-constexpr int most_rounds = 200;
+constexpr int most_rounds = 20000;
+// Rounds between two looks for a sequence that repeats itself, smaller, every so many rounds.
+constexpr int looks = 120, period = 12;
+constexpr double same = 1e-9;
+
+// How far a gap opens that leaves with this rate under this acceleration [m].
+double bounce(double rate, double acceleration) {
+  return acceleration < 0 ? rate * rate / (-2 * acceleration) : rate == 0 ? 0 : std::numeric_limits<double>::infinity();
+}
 
 }  // namespace
 
@@ -70,10 +79,29 @@ VectorX EventFlow::accelerations() const {
 void EventFlow::collide(const System& system, double time, double remaining, StepResult& result) {
   if (modes_.pairs() == 0) return;
   rate_ = modes_.gap * state_.y;
-  for (int round = 0; round <= most_rounds && collide_once(system, time, remaining, round == most_rounds, result); ++round) {
+  VectorX before;
+  bool ends = false;  // the limit of infinitely many impacts: theory.md (172)
+  for (int round = 0; round <= most_rounds; ++round) {
+    const bool last = ends || round == most_rounds;
+    if (!collide_once(system, time, remaining, last, result)) break;
+    if (ends) ++result.accumulations.ended;
+    if (last && !ends) ++result.accumulations.plastic;
+    if (last) break;
+    if (round > 0 && round % looks == 0) before = rate_;
+    if (round > looks && round % looks == period) ends = shrinks(before);
   }
   settle(system, time, result);
   disturbed_ = true;
+}
+
+bool EventFlow::shrinks(const VectorX& before) const {
+  std::vector<int> touching;
+  for (int c = 0; c < modes_.pairs(); ++c) {
+    if (contact_.touching[static_cast<std::size_t>(c)] || std::binary_search(contact_.closed.begin(), contact_.closed.end(), c)) touching.push_back(c);
+  }
+  const VectorX was = before(touching), is = rate_(touching);
+  const double factor = is.dot(was) / was.squaredNorm();
+  return factor > 0 && factor < 1 && (is - factor * was).norm() <= same * was.norm();
 }
 
 bool EventFlow::collide_once(const System& system, double time, double remaining, bool last, StepResult& result) {
@@ -83,7 +111,7 @@ bool EventFlow::collide_once(const System& system, double time, double remaining
     const auto i = static_cast<std::size_t>(c);
     if (modes_.compliant[i]) continue;
     const bool closed = std::binary_search(contact_.closed.begin(), contact_.closed.end(), c);
-    const double noise = rate_noise(c);
+    const double noise = std::max(rate_noise(c), epsilon * largest_approach_);
     if (!closed && (!contact_.touching[i] || (rate_[c] > noise && !last))) continue;
     pairs.push_back(c);
     closing = closing || rate_[c] < -noise;
@@ -93,11 +121,18 @@ bool EventFlow::collide_once(const System& system, double time, double remaining
   double fastest = 0;
   for (const int c : pairs) fastest = std::max(fastest, -rate_[c]);
   largest_approach_ = std::max(largest_approach_, fastest);
+  const VectorX pull = accelerations();
+  std::vector<bool> ends(pairs.size(), false);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const int c = pairs[k];
-    const bool slow = last || -rate_[c] < slowest_approach * largest_approach_;
-    const double e = slow ? 0 : system.contacts().restitution[c];
-    rhs[static_cast<Eigen::Index>(k)] = (1 + e) * rate_[c];
+    const double e = system.contacts().restitution[c], rise = bounce(e * rate_[c], pull[c]);
+    const double size = std::abs(contact_.constant[c]) + modes_.gap.row(c).cwiseAbs().dot(state_.x.cwiseAbs());
+    ends[k] = -rate_[c] < slowest_approach * largest_approach_ && rise <= least_bounce * size;
+    if (ends[k] && rate_[c] < -rate_noise(c)) {
+      ++result.accumulations.ended;
+      result.accumulations.largest_bounce = std::max(result.accumulations.largest_bounce, rise);
+    }
+    rhs[static_cast<Eigen::Index>(k)] = (1 + (last || ends[k] ? 0 : e)) * rate_[c];
   }
   const VectorX impulse = solve_forces(system, pairs, rhs, result);
   VectorX change = VectorX::Zero(modes_.dofs);
@@ -117,9 +152,9 @@ bool EventFlow::collide_once(const System& system, double time, double remaining
     step_impulse_[c] += p;
     result.contact -= 0.5 * p * (before[c] + rate_[c]);
     // the rest of an accumulation: it would have ended after the sum of its ever shorter flights
-    const double e = system.contacts().restitution[c], slow = slowest_approach * largest_approach_;
+    const double e = system.contacts().restitution[c];
     double rest = 0;
-    if (-before[c] < slow && e < 1 && acceleration[c] < 0) rest = -2 * e * before[c] / (-acceleration[c] * (1 - e));
+    if (ends[k] && e < 1 && acceleration[c] < 0) rest = -2 * e * before[c] / (-acceleration[c] * (1 - e));
     result.impacts.push_back({time + std::min(rest, remaining), c, -before[c], p, before[c], rate_[c]});
   }
   result.jumps.push_back({time, std::move(change)});
@@ -143,9 +178,11 @@ void EventFlow::settle(const System& system, double time, StepResult& result) {
   std::swap(contact_.closed, springs);
   if (!candidates.empty()) {
     const VectorX force = solve_forces(system, candidates, acceleration(candidates), result);
+    const VectorX noise = sustained_.force_noise(state_, candidates);
     const double most = force.maxCoeff();
     for (std::size_t k = 0; k < candidates.size(); ++k) {
-      if (force[static_cast<Eigen::Index>(k)] > 1e-12 * most) closed.push_back(candidates[k]);
+      const auto i = static_cast<Eigen::Index>(k);
+      if (force[i] > std::max(1e-12 * most, noise[i])) closed.push_back(candidates[k]);
     }
   }
   std::sort(closed.begin(), closed.end());

@@ -11,7 +11,7 @@ namespace nsframe {
 
 namespace {
 
-constexpr int most_events = 20000;        // in one step
+constexpr int most_events = 1000000;      // between two kept results: some seconds of work
 constexpr double time_quantum = 0x1p-40;  // of dt: lengths of pieces are multiples, so that their coefficients recur
 
 }  // namespace
@@ -184,13 +184,20 @@ void EventFlow::add_energy(double time, double s, StepResult& result) {
   if (!modes_.undamped) result.damping += work - strain - springs - kinetic;
 }
 
+void EventFlow::refuse_to_go_on(const System& system, double time, double interval) const {
+  Eigen::Index nearest = 0;
+  gap_.cwiseAbs().minCoeff(&nearest);
+  const auto pair = static_cast<std::size_t>(nearest);
+  throw ConvergenceError(fmt::format("more than {} impacts and openings within one step at t = {:.9g} s, one every {:.2g} s, at last at pair '{}': a "
+                                     "light mass between heavy ones with a restitution near 1 ({:g}) does that",
+                                     most_events, time, interval, system.contacts().pairs[pair].name, system.contacts().restitution[nearest]));
+}
+
 void EventFlow::advance(const System& system, double time, double length, StepResult& result) {
   const double end = length;
   double at = 0;
   for (int events = 0; at < end; ++events) {
-    if (events > most_events) {
-      throw ConvergenceError(fmt::format("more than {} impacts and openings in one step at t = {:.9g} s", most_events, time + at));
-    }
+    if (events > most_events) refuse_to_go_on(system, time + at, at / most_events);
     const FlightEvent event = flight_.find(state_, contact_, end - at, at == 0, disturbed_);
     disturbed_ = false;
     const double s = event.time;

@@ -55,10 +55,13 @@ class EventFlow {
   // Times in (0, h] after `time` where the step is cut: samples of the motions, and its end.
   std::vector<double> cuts(const System& system, double time, double h) const;
   void advance(const System& system, double time, double length, StepResult& result);
+  [[noreturn]] void refuse_to_go_on(const System& system, double time, double interval) const;
   void add_energy(double time, double s, StepResult& result);
   // Impacts at this time, until no gap that is zero closes any more.
   void collide(const System& system, double time, double remaining, StepResult& result);
   bool collide_once(const System& system, double time, double remaining, bool last, StepResult& result);
+  // Whether the gap rates of what touches are those of some rounds ago, all times one factor below 1.
+  bool shrinks(const VectorX& before) const;
   // Which of the touching pairs with no gap rate stay closed.
   void settle(const System& system, double time, StepResult& result);
   void remove_drift();

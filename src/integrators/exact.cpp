@@ -2,31 +2,26 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "base/errors.hpp"
 
 namespace nsframe {
 
 namespace {
 
-const System& linear_only(const System& system) {
-  if (system.linear()) return system;
-  for (const auto& group : system.model.groups) {
-    if (group->linear() || group->size() == 0) continue;
-    std::string kind(group->kind());
-    std::replace(kind.begin(), kind.end(), '_', ' ');
-    throw InputError(fmt::format("error: scheme 'exact' is for linear scenes, and element '{}' ({}) is nonlinear; use scheme = "
-                                 "\"exponential\" or \"moreau-jean\"",
-                                 group->id(0), kind));
+const System& linear_only(const System& system, const Location& at) {
+  const std::string nonlinear = nonlinear_element(system);
+  Diagnostics diagnostics;
+  if (!nonlinear.empty()) {
+    diagnostics.error(at, fmt::format("scheme 'exact' is for linear scenes, and {} is nonlinear; use scheme = \"exponential\" or \"moreau-jean\"", nonlinear));
   }
+  diagnostics.throw_if_any();
   return system;
 }
 
 }  // namespace
 
 Exact::Exact(const AnalysisOptions& options, const System& system)
-    : flow_(options, exact_modes(linear_only(system), system.assembler.tangent())) {}
+    : flow_(options, exact_modes(linear_only(system, options.scheme_at), system.assembler.tangent())) {}
 
 void Exact::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result = StepResult{};

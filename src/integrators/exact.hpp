@@ -15,6 +15,7 @@ class Exact : public Scheme {
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, w}; }
   long factorizations() const override { return 0; }
+  bool shorter_steps_help() const override { return false; }
   void save(Snapshot& snapshot) const override;
   void restore(System& system, const Snapshot& snapshot) override;
   std::vector<std::string> describe() const override;

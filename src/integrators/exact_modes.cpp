@@ -176,6 +176,17 @@ void find_contacts(const System& system, const std::vector<BlockModes>& blocks, 
 
 }  // namespace
 
+std::string nonlinear_element(const System& system) {
+  if (system.linear()) return {};
+  for (const auto& group : system.model.groups) {
+    if (group->linear() || group->size() == 0) continue;
+    std::string kind(group->kind());
+    std::replace(kind.begin(), kind.end(), '_', ' ');
+    return fmt::format("element '{}' ({})", group->id(0), kind);
+  }
+  return "a load";
+}
+
 ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
   const Model& model = system.model;
   const int n = model.dofs.size();

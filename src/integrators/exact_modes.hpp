@@ -3,6 +3,7 @@
 // what has no mass, which follows its loads at once.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "assembly/system.hpp"
@@ -38,6 +39,9 @@ struct ExactModes {
 
   int pairs() const { return static_cast<int>(compliant.size()); }
 };
+
+// The first nonlinear element and its kind, as "element 'a' (spring)"; empty when there is none.
+std::string nonlinear_element(const System& system);
 
 // Modes under a symmetric `stiffness` (free DOFs). Throws InputError for damping that couples them, naming the structure.
 ExactModes exact_modes(const System& system, const SparseMatrix& stiffness);

@@ -65,7 +65,7 @@ Eigen::Matrix<double, 7, 1> Flight::derivatives(int pair) {
 void Flight::find_openings(FlightEvent& event) const {
   for (std::size_t k = 0; k < forces_.pairs.size(); ++k) {
     const VectorX b = sustained_.bernstein(forces_, k);
-    const double at = forces_.length * first_negative(b, 1e-11 * b.cwiseAbs().maxCoeff());
+    const double at = forces_.length * first_negative(b, std::max(1e-11 * b.cwiseAbs().maxCoeff(), forces_.noise[static_cast<Eigen::Index>(k)]));
     if (at < event.time) event = {at, FlightEvent::Kind::opens, forces_.pairs[k]};
   }
 }

@@ -27,6 +27,7 @@ struct StepResult {
   std::vector<Impact> impacts;
   std::vector<VelocityJump> jumps;   // in the order of time
   std::vector<Attempt> attempts;     // of the solution algorithms, also when the step failed
+  Accumulations accumulations;       // ended in this step
   // increments over the step [J]; kinetic and strain energy are those of Energy
   double strain = 0, damping = 0, contact = 0, numerical = 0, input = 0;
 };
@@ -49,6 +50,9 @@ class Scheme {
 
   virtual long factorizations() const = 0;
 
+  // Whether a step that threw ConvergenceError is worth trying in halves.
+  virtual bool shorter_steps_help() const { return true; }
+
   // What `nsframe check` says of it, a line each.
   virtual std::vector<std::string> describe() const { return {}; }
 
@@ -59,6 +63,7 @@ class Scheme {
 
 // The scheme of that name. Throws InputError for an unknown one.
 std::unique_ptr<Scheme> make_scheme(const AnalysisOptions& options, const System& system);
+// All of them, and "auto" (scheme_choice.hpp).
 std::vector<std::string> scheme_names();
 
 }  // namespace nsframe

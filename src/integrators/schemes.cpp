@@ -27,7 +27,7 @@ const std::map<std::string, Factory>& registry() {
 }  // namespace
 
 std::vector<std::string> scheme_names() {
-  std::vector<std::string> names;
+  std::vector<std::string> names{"auto"};
   for (const auto& entry : registry()) names.push_back(entry.first);
   return names;
 }

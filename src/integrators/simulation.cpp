@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "base/timer.hpp"
 #include "integrators/algorithms.hpp"
+#include "integrators/scheme_choice.hpp"
 #include "integrators/static_analysis.hpp"
 #include "integrators/static_control.hpp"
 
@@ -45,7 +46,9 @@ Simulation::Simulation(const Model& model, const AnalysisOptions& options, int m
   stiffness_ = system_.initial_stiffness = system_.assembler.tangent();
   modes_ = structure_modes(model, stiffness_, modes);
   assemble_damping(system_, stiffness_, modes_);
-  scheme_ = make_scheme(options, system_);
+  SchemeChoice choice = choose_scheme(options, system_, state_);
+  scheme_ = std::move(choice.scheme);
+  scheme_reason_ = std::move(choice.reason);
   stages_ = model.stages;
   for (StaticStage& stage : stages_) {
     if (!stage.mode.empty()) stage.pattern = mode_pattern(stage);
@@ -159,6 +162,7 @@ double Simulation::duration() const {
 Summary Simulation::outline() const {
   Summary summary;
   summary.scheme = scheme_->name();
+  summary.scheme_reason = scheme_reason_;
   summary.dt = options_.dt;
   summary.theta = options_.theta;
   summary.gamma = options_.gamma;
@@ -214,6 +218,7 @@ Summary Simulation::run(const std::vector<Observer*>& observers, const RunContro
   summary.worst_balance_error = result.worst_balance_error;
   summary.max_penetration = result.max_penetration;
   summary.max_complementarity_error = result.max_complementarity_error;
+  summary.accumulations = result.accumulations;
   summary.newton_iterations = result.newton_iterations;
   summary.halved_steps = result.halved_steps;
   summary.evaluations = result.evaluations;

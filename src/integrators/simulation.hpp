@@ -25,6 +25,8 @@ class Simulation {
   State& state() { return state_; }
   double duration() const;
   const Scheme& scheme() const { return *scheme_; }
+  // Why this one.
+  const std::string& scheme_reason() const { return scheme_reason_; }
   // With the patterns of modes filled in.
   const std::vector<StaticStage>& stages() const { return stages_; }
   // Runs stages [0, count) from the first rest; false when one cannot go on, which the last result tells.
@@ -45,6 +47,7 @@ class Simulation {
   SparseMatrix stiffness_;
   std::vector<StructureModes> modes_;
   std::unique_ptr<Scheme> scheme_;
+  std::string scheme_reason_;
   std::vector<StaticStage> stages_;
   double setup_seconds_ = 0;
 };

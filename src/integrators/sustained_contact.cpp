@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace nsframe {
 
@@ -165,7 +166,7 @@ const SustainedContact::SetSolver& SustainedContact::solver(const std::vector<in
 }
 
 ContactForces SustainedContact::solve(const ModalState& state, const VectorX& gap_offset, const std::vector<int>& pairs) {
-  ContactForces forces{pairs, {}, length_};
+  ContactForces forces{pairs, {}, length_, force_noise(state, pairs)};
   const auto count = static_cast<Eigen::Index>(pairs.size());
   const SetSolver& set = solver(pairs);
   Eigen::Matrix<long double, Eigen::Dynamic, 1> rhs(panel_points * count);
@@ -186,6 +187,24 @@ ContactForces SustainedContact::solve(const ModalState& state, const VectorX& ga
     for (Eigen::Index c = 0; c < count; ++c) forces.values(i, c) = set.scale[c] * static_cast<double>(solution[i * count + c]);
   }
   return forces;
+}
+
+VectorX SustainedContact::force_noise(const ModalState& state, const std::vector<int>& pairs) const {
+  const auto count = static_cast<Eigen::Index>(pairs.size());
+  // a load that passes through zero is rounded as it was before and will be after
+  const VectorX terms = state.f0.cwiseAbs() + longest_panel * state.f1.cwiseAbs() + 2 * modes_.decay.cwiseProduct(state.y.cwiseAbs()) + modes_.square.cwiseProduct(state.x.cwiseAbs());
+  VectorX acceleration(count), scale(count);
+  for (Eigen::Index c = 0; c < count; ++c) {
+    const int pair = pairs[static_cast<std::size_t>(c)];
+    const bool compliant = modes_.compliant[static_cast<std::size_t>(pair)];
+    scale[c] = compliant ? 0 : 1 / std::sqrt(modes_.delassus(pair, pair));
+    acceleration[c] = 16 * std::numeric_limits<double>::epsilon() * modes_.gap.row(pair).cwiseAbs().dot(terms);
+  }
+  Eigen::CompleteOrthogonalDecomposition<MatrixX> factor;
+  factor.setThreshold(1e-12);
+  factor.compute(scale.asDiagonal() * modes_.delassus(pairs, pairs) * scale.asDiagonal());
+  const MatrixX inverse = factor.pseudoInverse();
+  return scale.cwiseProduct(inverse.cwiseAbs() * scale.cwiseProduct(acceleration));
 }
 
 void SustainedContact::move(const ModalState& from, const ContactForces& forces, double s, ModalState& after) const {

@@ -15,6 +15,7 @@ struct ContactForces {
   std::vector<int> pairs;
   MatrixX values;     // panel_points x pairs: at the Gauss points of [0, length] [N]
   double length = 0;  // [s]
+  VectorX noise;      // what rounding may make of each force [N]
 
   bool empty() const { return pairs.empty(); }
 };
@@ -27,6 +28,8 @@ class SustainedContact {
 
   // Forces that keep the gaps of the pairs: of compliant ones at zero, of the others their accelerations.
   ContactForces solve(const ModalState& state, const VectorX& gap_offset, const std::vector<int>& pairs);
+  // What rounding may make of the forces of closed pairs without compliance (theory.md, 170); 0 for the others.
+  VectorX force_noise(const ModalState& state, const std::vector<int>& pairs) const;
   // Motion under them, for a time s up to the panel's length.
   void move(const ModalState& from, const ContactForces& forces, double s, ModalState& after) const;
 

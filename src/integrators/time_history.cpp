@@ -38,6 +38,9 @@ void visit_sums(Sums& sums, const Visit& visit) {
   visit("worst_balance_error", sums.worst_balance_error);
   visit("max_penetration", sums.max_penetration);
   visit("max_complementarity_error", sums.max_complementarity_error);
+  visit("accumulations_ended", sums.accumulations.ended);
+  visit("accumulations_largest_bounce", sums.accumulations.largest_bounce);
+  visit("accumulations_plastic", sums.accumulations.plastic);
   visit("observer_seconds", sums.observer_seconds);
 }
 
@@ -107,7 +110,7 @@ void TimeHistory::advance(const State& committed, State& trial, double h, int ha
     add(step_);
   } catch (const ConvergenceError&) {
     record_ladder(committed);
-    if (halvings >= options_.max_halvings) throw;
+    if (halvings >= options_.max_halvings || !scheme_.shorter_steps_help()) throw;
     ++result_.halved_steps;
     ++report_.substeps;
     State middle = committed;
@@ -135,6 +138,9 @@ void TimeHistory::add(const StepResult& step) {
   if (step.guess_stood) ++result_.guessed_steps;
   result_.max_complementarity_error = std::max(result_.max_complementarity_error, step.complementarity_error);
   result_.max_penetration = std::max(result_.max_penetration, -step.least_gap);
+  result_.accumulations.ended += step.accumulations.ended;
+  result_.accumulations.plastic += step.accumulations.plastic;
+  result_.accumulations.largest_bounce = std::max(result_.accumulations.largest_bounce, step.accumulations.largest_bounce);
   result_.energy.strain += step.strain;
   result_.energy.damping += step.damping;
   result_.energy.contact += step.contact;

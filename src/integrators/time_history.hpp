@@ -22,6 +22,7 @@ struct RunSums {
   double worst_balance_error = 0;    // relative to the largest energy so far
   double max_penetration = 0;        // [m]
   double max_complementarity_error = 0;
+  Accumulations accumulations;
 };
 
 struct TimeHistoryResult : RunSums {

@@ -262,6 +262,10 @@ std::vector<std::string> numerical_warnings(const Summary& summary) {
     warnings.push_back(fmt::format("the contact problem is solved to {:.1e} only: impulses carry that relative error",
                                    summary.max_complementarity_error));
   }
+  if (summary.accumulations.plastic > 0) {
+    warnings.push_back(fmt::format("{} times impacts at one moment did not come to an end and were made plastic: e did not act there",
+                                   summary.accumulations.plastic));
+  }
   return warnings;
 }
 
@@ -274,6 +278,7 @@ std::string summary_json(const Summary& summary) {
       {"stop_reason", summary.stop_reason},
       {"end_time", summary.end_time},
       {"scheme", summary.scheme},
+      {"scheme_reason", summary.scheme_reason},
       {"dt", summary.dt},
       {"duration", summary.duration},
       {"theta", summary.theta},
@@ -303,6 +308,10 @@ std::string summary_json(const Summary& summary) {
       {"laddered_steps", summary.laddered_steps},
       {"ladder", ladder_json(summary.ladder)},
       {"factorizations", summary.factorizations},
+      {"accumulations",
+       {{"ended", summary.accumulations.ended},
+        {"largest_bounce", summary.accumulations.largest_bounce},
+        {"plastic", summary.accumulations.plastic}}},
       {"savings",
        {{"elements_assembled_once", summary.savings.elements_assembled_once},
         {"quiet_fibers", summary.savings.quiet_fibers},

@@ -83,6 +83,7 @@ void put_head(Buffer& out, const Summary& summary) {
   line(out, "{}, dt {:g} ms, {} to {:g} s, {}, {}{}", summary.scheme, 1e3 * summary.dt, count(summary.steps, "step"),
        summary.end_time, count(summary.dofs, "free DOF"), count(summary.elements, "element"),
        summary.fibers > 0 ? ", " + count(summary.fibers, "fiber") : "");
+  if (!summary.scheme_reason.empty()) paragraph(out, fmt::format("{}: {}", summary.scheme, summary.scheme_reason), 2);
   if (!summary.completed) {
     line(out, "STOPPED at {:g} s of {:g} s:", summary.end_time, summary.duration);
     paragraph(out, summary.stop_reason, 4);

@@ -45,6 +45,21 @@ void note_places(const toml::table& root, Scene& scene) {
   }
 }
 
+// Options that only Moreau-Jean has, given without a scheme, ask for it.
+void find_scheme(Scene& scene) {
+  const auto named = scene.places.find("analysis.scheme");
+  if (named != scene.places.end()) {
+    scene.analysis.scheme_at = named->second;
+    return;
+  }
+  for (const char* key : {"theta", "gamma", "newton_tolerance", "max_newton", "max_halvings", "contact_solver"}) {
+    if (!scene.places.contains(fmt::format("analysis.{}", key))) continue;
+    scene.analysis.scheme = "moreau-jean";
+    scene.analysis.scheme_reason = fmt::format("analysis.{} is an option of this scheme alone", key);
+    return;
+  }
+}
+
 // A record named on the command line may also be relative to the current directory.
 void find_overridden_records(Scene& scene) {
   std::error_code ignored;
@@ -85,6 +100,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   Reader reader(diagnostics);
   reader.read({{&root}, std::nullopt, {name, 0, 0}}, Field{.key = "scene", .text = ""}, scene);
   note_places(root, scene);
+  find_scheme(scene);
   find_overridden_records(scene);
   describe_model(scene, diagnostics);
   scene.model.screening = scene.analysis.screening;

@@ -156,7 +156,11 @@ void visit(Archive& ar, StageTable& s) {
 
 template <class Archive>
 void visit(Archive& ar, AnalysisOptions& a) {
-  ar(Field{"scheme", "time integration: `moreau-jean`, `exponential`, or `exact` for linear scenes, where `dt` only says when results are kept"}, a.scheme);
+  ar(Field{"scheme",
+           "time integration: `moreau-jean`; `exact` for linear scenes, where `dt` only says when results are kept; `exponential` for scenes "
+           "that yield; `auto`: `exact` or `exponential` where they can be, else `moreau-jean`, which options of its own (`theta`, `gamma`, "
+           "`newton_tolerance`, `max_newton`, `max_halvings`, `contact_solver`) also choose when no scheme is given"},
+     a.scheme);
   ar(Field{"dt", "time step", dimension::time, range::positive}, a.dt);
   ar(Field{"accuracy",
            "of scheme `exponential`: it takes parts of `dt` so that displacements are off by about this part of their peak; 0: whole steps",

@@ -149,6 +149,24 @@ class Commands(unittest.TestCase):
         self.nsframe("run", BALL, "--set", "analysis.theta", code=2)
         self.nsframe("run", BALL, "--set", "analysis.theta=banana", code=2)
 
+    def test_auto_says_which_scheme_it_takes_and_why_and_again_from_the_scene_it_wrote(self):
+        self.nsframe("run", BALL, "-o", "out", "-q", "--set", "output.frames=0", "--set", "analysis.scheme=auto", "--set", "analysis.duration=3.5")
+        self.nsframe("run", "out/scene.toml", "-o", "again", "-q")
+        for folder in ("out", "again"):
+            summary = self.summary(folder)
+            self.assertEqual(summary["scheme"], "exact")
+            self.assertIn("linear", summary["scheme_reason"])
+            self.assertGreater(summary["accumulations"]["ended"], 0)
+            self.assertLess(summary["accumulations"]["largest_bounce"], 1e-13)
+            self.assertEqual(summary["accumulations"]["plastic"], 0)
+        text = self.nsframe("check", self.scene(STUBBORN)).stdout
+        self.assertIn("scheme moreau-jean: theta = 1", text)
+        self.assertIn("analysis.newton_tolerance is an option of this scheme alone", text)
+        bare = STUBBORN.replace("max_newton = 1\n", "").replace("newton_tolerance = 1e-12\n", "").replace("max_halvings = 0\n", "")
+        self.assertIn("chosen because: not exact: element 's.k' (spring) is nonlinear", self.nsframe("check", self.scene(bare)).stdout)
+        done = self.nsframe("run", self.scene(bare.replace('dt = "1 ms"', 'scheme = "exact"')), "-o", "no", code=2)
+        self.assertRegex(done.stderr, r"s\.toml:\d+:10: error: scheme 'exact' is for linear scenes, and element 's\.k' \(spring\) is nonlinear")
+
     def test_fibers_of_an_element_without_are_bad_input_at_their_place(self):
         text = STUBBORN.replace('history = ["nodes", "energy"]', 'history = ["fibers"]\nfibers = ["s.k", "s.j"]')
         done = self.nsframe("run", self.scene(text), "-o", "out", code=2)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "integrators/simulation.hpp"
+#include "tests/support/recorder.hpp"
 #include "tests/support/small_models.hpp"
 
 namespace nsframe::test {
@@ -80,21 +81,12 @@ inline ModelDescription fiber_pair(const UniaxialLaw& law, ElementKind kind, dou
 
 inline AnalysisOptions options(double theta, double dt, double duration) {
   AnalysisOptions o;
+  o.scheme = "moreau-jean";
   o.theta = theta;
   o.dt = dt;
   o.duration = duration;
   return o;
 }
-
-// Keeps every state.
-class Recorder : public Observer {
- public:
-  std::vector<State> states;
-  std::vector<Impact> impacts;
-  void start(const Model&, const State& state) override { states.push_back(state); }
-  void step(const State&, const State& after, const StepReport&, const Energy&) override { states.push_back(after); }
-  void impact(const Impact& impact) override { impacts.push_back(impact); }
-};
 
 struct Run {
   Summary summary;

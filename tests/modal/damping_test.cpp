@@ -42,6 +42,7 @@ ModelDescription towers(const DampingDescription& damping, int count) {
 
 AnalysisOptions short_run() {
   AnalysisOptions options;
+  options.scheme = "moreau-jean";
   options.duration = 0.1;
   return options;
 }

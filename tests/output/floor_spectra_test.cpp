@@ -38,6 +38,7 @@ std::array<std::vector<double>, 2> pull_back_psa(double dt, bool jumps) {
   d.contacts = {contact_of(0, 1, 0.02, 0.6)};
   const Model model = build(d);
   AnalysisOptions options;
+  options.scheme = "moreau-jean";
   options.dt = dt;
   options.theta = 0.5;
   options.duration = 1;

@@ -42,6 +42,7 @@ ModelDescription pushed_frame() {
 
 AnalysisOptions analysis(double duration) {
   AnalysisOptions options;
+  options.scheme = "moreau-jean";
   options.duration = duration;
   return options;
 }

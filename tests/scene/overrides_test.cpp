@@ -94,3 +94,23 @@ TEST_CASE("an override is one value, whatever lines it holds") {
   CHECK(scene("", {"title=a\nb"}).title == "a\nb");
   CHECK(scene("", {"title=say \"a\\b\""}).title == "say \"a\\b\"");
 }
+
+TEST_CASE("options of Moreau-Jean without a scheme ask for it, also on the command line; a named scheme stays") {
+  const auto analysis = [](const std::string& text, const std::vector<std::string>& set) {
+    Diagnostics diagnostics;
+    return parse_scene("[structure.a]\nnodes = [[1, 0, 0, 0]]\n" + text, "s.toml", {}, set, diagnostics).analysis;
+  };
+  CHECK(analysis("", {}).scheme == "auto");
+  CHECK(analysis("[analysis]\ndt = 0.01", {}).scheme == "auto");
+  for (const char* option : {"theta = 0.5", "gamma = 1.5", "newton_tolerance = 1e-9", "max_newton = 20", "max_halvings = 3",
+                             "contact_solver = \"gauss-seidel\""}) {
+    CAPTURE(option);
+    const AnalysisOptions a = analysis(std::string("[analysis]\n") + option, {});
+    CHECK(a.scheme == "moreau-jean");
+    CHECK(a.scheme_reason.find(std::string("analysis.") + std::string(option).substr(0, 5)) == 0);
+  }
+  CHECK(analysis("", {"analysis.theta=0.5"}).scheme == "moreau-jean");
+  const AnalysisOptions named = analysis("[analysis]\ntheta = 0.5\nscheme = \"exact\"", {});
+  CHECK(named.scheme == "exact");
+  CHECK(named.scheme_at.line == 5);
+}

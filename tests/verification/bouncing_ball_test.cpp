@@ -19,6 +19,7 @@ double largest_error(double theta, double gamma, double dt) {
   Diagnostics diagnostics;
   const Model model = build_model(d, diagnostics);
   AnalysisOptions options;
+  options.scheme = "moreau-jean";
   options.theta = theta;
   options.gamma = gamma;
   options.dt = dt;

@@ -20,6 +20,7 @@ struct Run {
 Run run(const ModelDescription& description, double theta, double dt, double duration) {
   const Model model = build(description);
   AnalysisOptions options;
+  options.scheme = "moreau-jean";
   options.theta = theta;
   options.dt = dt;
   options.duration = duration;

@@ -242,6 +242,7 @@ EnergyDrift free_flight(double dt) {
   }
   const Model model = build(d);
   AnalysisOptions options;
+  options.scheme = "moreau-jean";
   options.theta = 0.5;
   options.dt = dt;
   options.duration = 1;

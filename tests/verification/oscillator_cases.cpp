@@ -29,6 +29,7 @@ std::vector<State> under_half_sine(const SpringDescription& spring) {
   d.motions = {motion};
   const Model model = build(d);
   AnalysisOptions options;
+  options.scheme = "moreau-jean";
   options.dt = 0.1;
   options.theta = 0.5;
   options.duration = 1;

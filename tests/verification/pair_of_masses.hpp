@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "models/model.hpp"
+#include "tests/support/recorder.hpp"
 
 namespace nsframe::test {
 
@@ -44,13 +45,5 @@ inline ContactDescription contact_of(int a, int b, double gap, double restitutio
   c.restitution = restitution;
   return c;
 }
-
-// Keeps displacement and velocity of all free DOFs at every step.
-class Recorder : public Observer {
- public:
-  std::vector<State> states;
-  void start(const Model&, const State& state) override { states.push_back(state); }
-  void step(const State&, const State& after, const StepReport&, const Energy&) override { states.push_back(after); }
-};
 
 }  // namespace nsframe::test

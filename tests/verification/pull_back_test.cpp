@@ -23,6 +23,7 @@ PullBackRun pull_back(double theta, double gamma, double dt) {
   Diagnostics diagnostics;
   const Model model = build_model(d, diagnostics);
   AnalysisOptions options;
+  options.scheme = "moreau-jean";
   options.dt = dt;
   options.theta = theta;
   options.gamma = gamma;

@@ -61,6 +61,7 @@ struct Answer {
 Answer answer(const ModelDescription& d) {
   const Model model = build(d);
   AnalysisOptions options;
+  options.scheme = "moreau-jean";
   options.duration = 1;
   Simulation simulation(model, options, 4);
   Answer out;
@@ -91,6 +92,7 @@ TEST_CASE("a release that makes a mechanism is an error that names the structure
   s.supports.pop_back();  // e2 hangs on the hinge alone
   s.at = at(3);
   AnalysisOptions options;
+  options.scheme = "moreau-jean";
   options.duration = 1;
   const Model model = build(d);
   CHECK_THROWS_WITH_AS(Simulation(model, options), doctest::Contains("structure 'a' is unstable: node 'a."),

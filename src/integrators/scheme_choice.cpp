@@ -1,0 +1,58 @@
+#include "integrators/scheme_choice.hpp"
+
+#include <fmt/format.h>
+
+#include "base/errors.hpp"
+#include "integrators/exact_modes.hpp"
+
+namespace nsframe {
+
+namespace {
+
+// Free DOFs of one structure: its dense eigen-solve takes one or two seconds then, and grows as n^3; so does, as n^2, the product
+// of its modes in a thousand kept results.
+constexpr int most_dofs = 1000;
+
+// Why natural modes are not for this scene; empty when they may be.
+std::string reason_against_modes(const System& system, const State& start) {
+  for (const Structure& structure : system.model.structures) {
+    const int dofs = structure.last_dof - structure.first_dof;
+    if (dofs > most_dofs) return fmt::format("structure '{}' has {} free DOFs, and all its modes are worth finding up to {}", structure.name, dofs, most_dofs);
+  }
+  const Contacts& contacts = system.contacts();
+  if (contacts.size() == 0) return {};
+  if (!system.model.stages.empty()) return "contact pairs may overlap after static stages, in which they do not act";
+  const VectorX gap = contacts.jacobian * start.displacement + contacts.initial_gap;
+  Eigen::Index least = 0;
+  gap.minCoeff(&least);
+  const double size = start.displacement.cwiseAbs().maxCoeff() + contacts.initial_gap.cwiseAbs().maxCoeff() + 1e-6;
+  if (gap[least] < -1e-12 * size) {
+    return fmt::format("contact pair '{}' overlaps by {:.3g} m at the start", contacts.pairs[static_cast<std::size_t>(least)].name, -gap[least]);
+  }
+  return {};
+}
+
+}  // namespace
+
+SchemeChoice choose_scheme(const AnalysisOptions& options, const System& system, const State& start) {
+  if (options.scheme != "auto") {
+    return {make_scheme(options, system), options.scheme_reason.empty() ? "asked for" : options.scheme_reason};
+  }
+  AnalysisOptions chosen = options;
+  const std::string nonlinear = nonlinear_element(system);
+  std::string against = reason_against_modes(system, start);
+  chosen.scheme = nonlinear.empty() ? "exact" : "exponential";
+  if (against.empty()) {
+    try {
+      return {make_scheme(chosen, system), nonlinear.empty() ? "the scene is linear: every mode moves in closed form"
+                                                             : nonlinear + " is nonlinear: its departure from the stiffness at rest is a load"};
+    } catch (const InputError& refusal) {
+      against = refusal.what();
+    }
+  }
+  against = fmt::format("not {}: {}", chosen.scheme, against);
+  chosen.scheme = "moreau-jean";
+  return {make_scheme(chosen, system), against};
+}
+
+}  // namespace nsframe
