@@ -6,6 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/section.hpp"
+#include "app/study.hpp"
 #include "base/errors.hpp"
 
 namespace nsframe::app {
@@ -43,6 +44,24 @@ void add_section_command(CLI::App& program, SectionArguments& a, std::function<i
   c->add_option("-o,--output", a.scene.output, "folder for section.json, moment_curvature.csv, interaction.csv");
   c->add_flag("--json", a.scene.json, "print JSON");
   c->callback([&] { command = [&] { return section(a); }; });
+}
+
+void add_study_command(CLI::App& program, StudyArguments& a, std::function<int()>& command) {
+  CLI::App* c = program.add_subcommand("study", "error against time of a scene over dt, scheme, ... against a converged reference");
+  c->add_option("scene", a.scene.scene, "scene file (TOML)")->required();
+  c->add_option("--set", a.scene.set, "key=value: change a value of the scene in all runs")->allow_extra_args(false);
+  c->add_option("--vary", a.vary, "key=value,value,key=value,...: all combinations are run; short keys: dt, scheme, theta, gamma, "
+                                  "restitution, pga, duration")
+      ->required()
+      ->allow_extra_args(false)
+      ->delimiter('\0');
+  c->add_option("--repeat", a.repeat, "runs of each combination; the least time counts (default: 1)")->check(CLI::Range(1, 1000));
+  c->add_option("-o,--output", a.scene.output, "folder for study.csv, study.json, study.svg (default: results/<name of the scene>)");
+  std::string schemes;
+  for (const std::string& name : scheme_names()) schemes += " " + name;
+  c->footer("Schemes:" + schemes + "\nThe reference is the first of exact, exponential, moreau-jean that takes the scene, at halved steps "
+            "until two\nsuccessive runs agree; its own error, their difference, is printed.");
+  c->callback([&] { command = [&] { return study(a); }; });
 }
 
 int guarded(const std::function<int()>& command) {
@@ -94,6 +113,8 @@ int program(int count, char** values) {
   export_command->callback([&] { command = [&] { return export_matrices(arguments); }; });
   SectionArguments section_arguments;
   add_section_command(program, section_arguments, command);
+  StudyArguments study_arguments;
+  add_study_command(program, study_arguments, command);
   program.add_subcommand("reference", "print the scene reference (docs/scene-reference.md)")->callback([&] {
     command = reference;
   });

@@ -14,6 +14,7 @@
 #include "output/peaks.hpp"
 #include "output/poundings.hpp"
 #include "output/summary.hpp"
+#include "output/warnings.hpp"
 #ifdef NSFRAME_HAS_VTK
 #include "output/stage_frames.hpp"
 #include "output/vtk_frames.hpp"
@@ -22,26 +23,6 @@
 namespace nsframe::app {
 
 namespace {
-
-// Pairs whose restitution acts on a corner of a flexible slab, not on the slab.
-std::vector<std::string> contact_warnings(const Model& model, const Summary& summary) {
-  bool flexible = false;
-  for (const ContactPair& pair : model.contacts.pairs) flexible = flexible || !pair.rigid_bodies;
-  std::vector<std::string> warnings;
-  if (flexible && !summary.poundings.empty()) {
-    double least = 1, most = 0;
-    for (const Pounding& pounding : summary.poundings) {
-      least = std::min(least, pounding.effective_restitution);
-      most = std::max(most, pounding.effective_restitution);
-    }
-    const std::string came_out = most - least < 0.005 ? fmt::format("as {:.2f}", least)
-                                                      : fmt::format("between {:.2f} and {:.2f}", least, most);
-    warnings.push_back(fmt::format("the restitution acts on corner nodes of flexible slabs, each with its share of the mass: "
-                                   "that of the poundings came out {}; rigid slabs would have that of the scene",
-                                   came_out));
-  }
-  return warnings;
-}
 
 // Largest effective mass of each mode, in the order of summary.modes.
 void add_participation(const std::vector<StructureModes>& structures, Summary& summary) {
@@ -150,13 +131,12 @@ int run(const SceneArguments& arguments) {
   summary.peaks = peaks.peaks();
   summary.drifts = drifts.drifts();
   add_participation(simulation.modes(), summary);
-  summary.warnings = numerical_warnings(summary);
+  summary.warnings = run_warnings(loaded.model, summary);
   if (spectra) {
     summary.floor_spectra = spectra->peaks();
     summary.floor_spectra_damping = spectra->damping();
     for (std::string& warning : spectrum_warnings(*spectra, summary.dt)) summary.warnings.push_back(std::move(warning));
   }
-  for (std::string& warning : contact_warnings(loaded.model, summary)) summary.warnings.push_back(std::move(warning));
   write_summary(summary, folder / "summary.json");
   if (!arguments.quiet) {
     fmt::print("{}", summary_text(summary));

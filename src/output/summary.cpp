@@ -151,7 +151,8 @@ Json modes_json(const Summary& summary) {
                     {"asked", mode.damping_asked > undamped ? mode.damping_asked : 0.0},
                     {"effective", mode.damping_effective},
                     {"added", mode.damping_effective - mode.damping_asked},
-                    {"effective_frequency", mode.frequency_effective}});
+                    {"effective_frequency", mode.frequency_effective},
+                    {"period_error", mode.frequency_effective > 0 ? mode.frequency / mode.frequency_effective - 1 : 0.0}});
   }
   return list;
 }

@@ -1,0 +1,132 @@
+#include "output/warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "output/summary.hpp"
+
+namespace nsframe {
+
+namespace {
+
+using Sentences = std::vector<std::string>;
+
+void of_the_scheme(const Model&, const Summary& summary, Sentences& out) {
+  for (std::string& sentence : numerical_warnings(summary)) out.push_back(std::move(sentence));
+}
+
+// Share of its slab's mass that a corner owns; 1 for a node that is no corner of a flexible slab.
+double share_of_slab(const Model& model, int node) {
+  for (const Slab& slab : model.slabs) {
+    if (slab.rigid || std::find(slab.corners.begin(), slab.corners.end(), node) == slab.corners.end()) continue;
+    double whole = slab.center >= 0 ? model.nodal_mass[6 * slab.center] : 0;
+    for (const int corner : slab.corners) whole += corner >= 0 ? model.nodal_mass[6 * corner] : 0;
+    if (whole > 0) return model.nodal_mass[6 * node] / whole;
+  }
+  return 1;
+}
+
+void of_light_contact_nodes(const Model& model, const Summary& summary, Sentences& out) {
+  const auto& pairs = model.contacts.pairs;
+  if (summary.poundings.empty()) return;
+  double share = 1, least = 1e300, most = -1e300;
+  for (const Pounding& pounding : summary.poundings) {
+    const ContactPair& pair = pairs[static_cast<std::size_t>(pounding.pair)];
+    if (pair.rigid_bodies) continue;
+    for (const int node : {pair.node_a, pair.node_b}) {
+      if (node >= 0) share = std::min(share, share_of_slab(model, node));
+    }
+    least = std::min(least, pounding.effective_restitution);
+    most = std::max(most, pounding.effective_restitution);
+  }
+  if (least > most) return;
+  const std::string came_out = most - least < 0.005 ? fmt::format("as {:.2f}", least)
+                                                    : fmt::format("between {:.2f} and {:.2f}", least, most);
+  out.push_back(fmt::format("the restitution acts on corner nodes of flexible slabs, each with its share of the mass{}: "
+                            "that of the poundings came out {}; rigid slabs would have that of the scene",
+                            share < 1 ? fmt::format(" (down to {:.0f} % of a slab)", 100 * share) : "", came_out));
+}
+
+constexpr double restitution_tolerance = 0.05;
+
+// Of pairs of rigid bodies, where Newton's e would be that of a single impact.
+void of_effective_restitution(const Model& model, const Summary& summary, Sentences& out) {
+  int seen = 0, different = 0;
+  const Pounding* worst = nullptr;
+  const auto departure = [&](const Pounding& p) {
+    return std::abs(p.effective_restitution - model.contacts.restitution[p.pair]);
+  };
+  for (const Pounding& pounding : summary.poundings) {
+    const ContactPair& pair = model.contacts.pairs[static_cast<std::size_t>(pounding.pair)];
+    if (!pair.rigid_bodies || !(pounding.approach_velocity > 0)) continue;
+    ++seen;
+    if (departure(pounding) <= restitution_tolerance) continue;
+    ++different;
+    if (!worst || departure(pounding) > departure(*worst)) worst = &pounding;
+  }
+  if (!worst) return;
+  out.push_back(fmt::format("{} of {} pounding{} did not part with the restitution of the scene: at t = {:.4g} s, {} parted with "
+                            "{:.2f} in place of {:.2f}, over {} impact{}",
+                            different, seen, seen == 1 ? "" : "s", worst->time,
+                            model.contacts.pairs[static_cast<std::size_t>(worst->pair)].name, worst->effective_restitution,
+                            model.contacts.restitution[worst->pair], worst->impacts, worst->impacts == 1 ? "" : "s"));
+}
+
+constexpr double deep = 0.05;  // of the smallest gap
+
+void of_penetration(const Model& model, const Summary& summary, Sentences& out) {
+  double gap = 1e300;
+  for (const double open : model.contacts.initial_gap) gap = open > 0 ? std::min(gap, open) : gap;
+  if (!(summary.max_penetration > deep * gap)) return;
+  out.push_back(fmt::format("the largest penetration, {:.3g} mm, is {:.0f} % of the smallest gap, {:.3g} mm: a smaller dt lessens it",
+                            1e3 * summary.max_penetration, 100 * summary.max_penetration / gap, 1e3 * gap));
+}
+
+// A straight line between samples `dt` apart keeps sinc(f dt)^2 of a wave of frequency f (the transform of a triangle).
+double kept_between_samples(double f, double dt) {
+  const double x = std::acos(-1.0) * f * dt;
+  return x > 0 ? std::pow(std::sin(x) / x, 2) : 1;
+}
+
+void of_coarse_motions(const Model& model, const Summary& summary, Sentences& out) {
+  for (const GroundMotion& motion : model.motions) {
+    if (summary.scheme == "moreau-jean" && summary.dt > motion.dt * (1 + 1e-9)) {
+      out.push_back(fmt::format("dt = {:g} ms steps over samples of the ground motion, which are {:g} ms apart", 1e3 * summary.dt,
+                                1e3 * motion.dt));
+    }
+    const ModeNumerics* fastest = nullptr;
+    for (const ModeNumerics& mode : summary.modes) {
+      if (mode.participation >= 0.05 && (!fastest || mode.frequency > fastest->frequency) && mode.frequency * motion.dt < 1 &&
+          kept_between_samples(mode.frequency, motion.dt) < 0.9) {
+        fastest = &mode;
+      }
+    }
+    if (!fastest) continue;
+    out.push_back(fmt::format("the ground motion has a sample each {:g} ms: straight lines between them keep only {:.0f} % of what shakes "
+                              "mode {} of '{}' ({:.3g} Hz)",
+                              1e3 * motion.dt, 100 * kept_between_samples(fastest->frequency, motion.dt), fastest->mode,
+                              fastest->structure, fastest->frequency));
+  }
+}
+
+void of_halved_steps(const Model&, const Summary& summary, Sentences& out) {
+  if (summary.steps == 0 || summary.halved_steps * 100 < summary.steps || summary.halved_steps == 0) return;
+  out.push_back(fmt::format("steps did not converge and were halved {} times in {} steps: a smaller dt would be more accurate and not slower",
+                            summary.halved_steps, summary.steps));
+}
+
+using Rule = void (*)(const Model&, const Summary&, Sentences&);
+constexpr Rule rules[]{of_the_scheme,  of_light_contact_nodes, of_effective_restitution,
+                       of_penetration, of_coarse_motions,      of_halved_steps};
+
+}  // namespace
+
+std::vector<std::string> run_warnings(const Model& model, const Summary& summary) {
+  Sentences out;
+  for (const Rule rule : rules) rule(model, summary, out);
+  return out;
+}
+
+}  // namespace nsframe
