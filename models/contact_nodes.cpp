@@ -6,7 +6,10 @@ namespace nsframe {
 std::vector<PairDraft> find_nodes(const ContactDescription& contact, const ContactScene& scene) {
   const int a = scene.node(contact.a), b = contact.b ? scene.node(*contact.b) : -1;
   if (a < 0 || (contact.b && b < 0)) return {};
-  if (contact.gap.size() > 1) scene.error(contact.at, "a contact of two nodes has one gap");
+  if (contact.gap.size() > 1) {
+    scene.error(contact.at, "a contact of two nodes has one gap");
+    return {};
+  }
   if (contact.gap.empty() && !contact.b && !contact.wall) {
     scene.error(contact.at, "a contact with the ground needs its gap, or a wall");
     return {};

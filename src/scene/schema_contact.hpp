@@ -45,7 +45,7 @@ void visit(Archive& ar, ContactTable& c) {
      c.gap_tolerance);
   ar(Field{"reach", "pairs farther apart are left out; not of slab-corners and nodes", dimension::length, range::positive}, c.reach);
   ar(Field{"sliding_error",
-           "a run warns when sliding along a turned face makes the gap wrong by more (theory.md, 186)", dimension::length,
+           "a run warns when sliding along a turned face makes the gap wrong by more (theory.md, 187)", dimension::length,
            range::positive},
      c.sliding_error);
   ar(Field{"restitution", "Newton's e; one value, or listed as `gap`", {}, range::unit}, c.restitution);
