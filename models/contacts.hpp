@@ -1,19 +1,28 @@
 // Contact pairs of a model: unilateral constraints g = H q + g0 >= 0 (theory.md, eq. 10), one row of H a pair.
 #pragma once
 
+#include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "base/types.hpp"
+#include "models/contact_point.hpp"
 
 namespace nsframe {
 
+// How far b may slide against a along one tangent and still be in front of it [m].
+struct SlidingRoom {
+  double least = -std::numeric_limits<double>::infinity(), most = std::numeric_limits<double>::infinity();
+};
+
 struct ContactPair {
   std::string name;
-  int node_a = -1;                       // index into Model::nodes
-  int node_b = -1;                       // -1: a fixed wall
+  ContactPoint a, b;                     // b fixed: a wall
   Vector3 normal = Vector3::UnitX();     // from a to b
   bool rigid_bodies = false;             // both sides belong to rigid bodies, so restitution acts on whole slabs
+  std::array<SlidingRoom, 2> room;       // along tangents(normal)
+  double sliding_error = 1e-3;           // of the gap, beyond which a run warns [m]
 };
 
 struct Contacts {
@@ -24,5 +33,13 @@ struct Contacts {
 
   int size() const { return static_cast<int>(pairs.size()); }
 };
+
+// A row of the Jacobian: the velocity of b relative to a along `direction`, full DOFs.
+inline void add_row(const ContactPair& pair, const Vector3& direction, int row, std::vector<Eigen::Triplet<double>>& entries) {
+  Vector6 along = Vector6::Zero();
+  along.head<3>() = direction;
+  add_row(pair.a, -along, row, entries);
+  add_row(pair.b, along, row, entries);
+}
 
 }  // namespace nsframe

@@ -177,22 +177,32 @@ struct StructureDescription {
   ~StructureDescription();
 };
 
+// What is sought of two structures; "direction" is from the first to the second (models/contact_geometry.hpp).
 enum class ContactKind {
-  nodes,        // one node against another node, or against a fixed wall (b empty)
-  slab_corners  // facing corners of the slabs of two structures, floor by floor: the paper's eight-DOF contact
+  nodes,         // one node against another node, or against a fixed wall (b empty)
+  slab_corners,  // facing corners of slabs at one level: the paper's eight-DOF contact
+  slab_edges,    // corners of either structure's slabs against facing edges of the other's
+  slab_columns,  // slabs of either structure against columns of the other, between its floors
+  facing,        // whatever the other has at a slab's level: slab edges, else columns
+  wall           // corners of slabs against a fixed plane
 };
 
 struct ContactDescription {
   Location at;
-  std::string name;                     // prefix of the pairs' names; default from the two sides
+  std::string name;                     // prefix of the pairs' names
   ContactKind kind = ContactKind::slab_corners;
-  Reference a;                          // slab_corners: a structure; nodes: "structure.node"
-  std::optional<Reference> b;
+  Reference a;                          // a structure; nodes: "structure.node"
+  std::optional<Reference> b;           // empty: the ground
   Vector3 direction = Vector3::UnitX(); // from a to b, unit vector
-  std::vector<double> gap;              // [m]; one value, or (slab_corners) one a corner in the order of rising y (or x)
-                                        // (the same on all floors), or one a corner and floor, lowest floor first;
-                                        // empty: from the coordinates
+  std::vector<double> gap;              // [m]; one value, or one a pair of a floor in the order of rising y (or x) (the same
+                                        // on all floors), or one a pair and floor, lowest floor first; empty: from the
+                                        // coordinates
   double restitution = 0.6;
+  std::vector<double> restitutions;     // where pairs differ, in place of `restitution`: as `gap`
+  std::optional<Vector3> wall;          // a point of the fixed plane across `direction` [m]
+  double reach = 1;                     // pairs farther apart by their coordinates are not made [m]; not nodes, slab_corners
+  double gap_tolerance = 0.5;           // largest difference of a given gap from the coordinates [m]
+  double sliding_error = 1e-3;          // of the gap, by sliding along turned faces, beyond which a run warns [m]
 };
 
 // Base acceleration in one direction, piecewise linear between samples; the first sample is at t = 0.

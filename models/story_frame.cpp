@@ -19,6 +19,8 @@ const T& at_story(const std::vector<T>& values, int story) {
   return values.size() == 1 ? values.front() : values[static_cast<std::size_t>(story - 1)];
 }
 
+constexpr double same_level = 1e-3;  // [m]
+
 // One column line, or the centre of a floor.
 struct PlanPoint {
   int number = 0;             // i of the node id
@@ -171,11 +173,45 @@ class Expansion {
   void add_columns(int story) {
     for (const PlanPoint& point : points_) {
       if (!point.column) continue;
-      ElementDescription& column =
-          add_member(frame_.columns, story, node(story - 1, point.number), node(story, point.number));
-      // The default has local y along global X; with the local z against X, local y is along Y.
-      if (frame_.columns.depth == PlanAxis::y) column.orientation = Vector3(-1, 0, 0);
+      std::vector<Reference> nodes{node(story - 1, point.number)};
+      for (Reference& within : split_column(story, point)) nodes.push_back(std::move(within));
+      nodes.push_back(node(story, point.number));
+      for (std::size_t i = 0; i + 1 < nodes.size(); ++i) add_column_part(story, nodes[i], nodes[i + 1], i == 0, i + 2 == nodes.size());
     }
+  }
+
+  // The nodes within the column of a story, from the lowest.
+  std::vector<Reference> split_column(int story, const PlanPoint& point) {
+    const std::string below = node(story - 1, point.number).name;
+    const double bottom = position_.at(below).z(), top = position_.at(node(story, point.number).name).z();
+    std::vector<double> levels;
+    for (const double level : frame_.columns.split) {
+      const double z = frame_.origin.z() + level;
+      if (z > bottom + same_level && z < top - same_level) levels.push_back(z);
+    }
+    std::sort(levels.begin(), levels.end());
+    std::vector<Reference> nodes;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+      const Vector3 position(frame_.origin.x() + point.x, frame_.origin.y() + point.y, levels[i]);
+      nodes.push_back({below + static_cast<char>('a' + i), frame_.at});
+      out_.nodes.push_back({nodes.back().name, frame_.at, position});
+      position_.emplace(nodes.back().name, position);
+    }
+    return nodes;
+  }
+
+  // Between two nodes of a column; rigid zones, releases and end sections belong to the column's own ends.
+  void add_column_part(int story, const Reference& i, const Reference& j, bool lowest, bool highest) {
+    FrameMembers part = frame_.columns;
+    if (!lowest) part.rigid_ends[0] = 0;
+    if (!highest) part.rigid_ends[1] = 0;
+    if (part.releases && !lowest) part.releases->i = {};
+    if (part.releases && !highest) part.releases->j = {};
+    ElementDescription& column = add_member(part, story, i, j);
+    if (!column.sections.empty() && !lowest) column.sections.front() = column.section;
+    if (!column.sections.empty() && !highest) column.sections.back() = column.section;
+    // The default has local y along global X; with the local z against X, local y is along Y.
+    if (frame_.columns.depth == PlanAxis::y) column.orientation = Vector3(-1, 0, 0);
   }
 
   // Lines along x by rising y, then lines along y by falling x: around the plan when there is one bay.
@@ -278,6 +314,27 @@ void check_list(std::vector<std::string>& faults, std::string_view what, std::si
         fmt::format("{} has {} values, must have one, or one for each of the {} stories", what, size, stories));
 }
 
+// Levels within the height, apart from each other, not at a floor.
+void check_split(std::vector<std::string>& faults, const StoryFrame& frame) {
+  const std::vector<double>& split = frame.columns.split;
+  if (split.empty() || frame.height.empty()) return;
+  if (frame.columns.integration.rule.starts_with("hinge"))
+    faults.push_back("columns.split would put plastic hinges within the columns; use another integration");
+  if (split.size() > 26) faults.push_back("columns.split has more than 26 levels");
+  double floor = 0;
+  std::vector<double> taken{0};
+  for (int story = 1; story <= frame.stories && (frame.height.size() == 1 || story <= int(frame.height.size())); ++story)
+    taken.push_back(floor += at_story(frame.height, story));
+  for (const double level : split) {
+    if (!(level > 0 && level < floor)) faults.push_back(fmt::format("columns.split = {} m lies outside the frame of {} m", level, floor));
+    const auto& rigid = frame.columns.rigid_ends;
+    const auto near = [&](double other) { return level - other <= rigid[0] + same_level && other - level <= rigid[1] + same_level; };
+    if (std::any_of(taken.begin(), taken.end(), near))
+      faults.push_back(fmt::format("columns.split = {} m is at a floor or within a rigid end, or given twice", level));
+    taken.push_back(level);
+  }
+}
+
 double shortest_span(const StoryFrame& frame, std::size_t axis) {
   const std::vector<double>& plan = frame.plan[axis];
   return plan.size() == 1 ? plan.front() / frame.bays[axis] : *std::min_element(plan.begin(), plan.end());
@@ -336,6 +393,7 @@ std::vector<std::string> faults(const StoryFrame& frame) {
   check_list(out, "floor_mass", frame.mass.floor.size(), frame.stories);
   check_list(out, "centre_inertia", frame.mass.centre_inertia.size(), frame.stories);
   if (frame.columns.section.empty()) out.push_back("columns have no section");
+  check_split(out, frame);
   const auto check_ends = [&out](std::string_view key, const FrameMembers& members, double shortest) {
     if (members.rigid_ends[0] + members.rigid_ends[1] >= shortest)
       out.push_back(fmt::format("{}.rigid_ends leave nothing of a member of {} m", key, shortest));

@@ -4,7 +4,8 @@
 // Plan: the column lines stand on a grid of `spans` in x and y; the outer corners are counted around the plan.
 // Node ids: floor * 10 + i (100, 1000 ... in place of 10 when a floor has more nodes than fit), floor 0 the base;
 // i = 1..4 the outer corners (-x,-y), (+x,-y), (+x,+y), (-x,+y), 5 the slab's centre, 6... the other column lines by
-// rising y, then x. Where a column line passes through the centre, its node is the centre.
+// rising y, then x. Where a column line passes through the centre, its node is the centre. Nodes within a column have the id
+// of the node below them and a letter: 2a, 2b.
 // Element ids run story by story: columns, beams along x, beams along y, slab links, braces.
 #pragma once
 
@@ -52,6 +53,7 @@ enum class PlanAxis { x, y };
 
 struct FrameColumns : FrameMembers {
   PlanAxis depth = PlanAxis::x;  // direction of the section's depth (its local y)
+  std::vector<double> split;     // levels above the base that have a node in every column, e.g. a neighbour's floors [m]
 };
 
 enum class SlabKind { links, rigid, diaphragm };

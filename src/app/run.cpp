@@ -13,6 +13,7 @@
 #include "output/history_file.hpp"
 #include "output/peaks.hpp"
 #include "output/poundings.hpp"
+#include "output/sliding_watch.hpp"
 #include "output/summary.hpp"
 #include "output/warnings.hpp"
 #ifdef NSFRAME_HAS_VTK
@@ -103,7 +104,8 @@ int run(const SceneArguments& arguments) {
   if (loaded.scene.output.floor_spectra) spectra.emplace(*loaded.scene.output.floor_spectra, loaded.scene.analysis.dt);
   HistoryFile history(folder / "results.h5", loaded.scene.output, complete, spectra ? &*spectra : nullptr);
   ProgressBar progress(simulation.duration(), arguments.quiet);
-  std::vector<Observer*> observers{&peaks, &drifts, &history, &progress};
+  SlidingWatch sliding;
+  std::vector<Observer*> observers{&peaks, &drifts, &history, &progress, &sliding};
   if (spectra) observers.push_back(&*spectra);
   const bool wants_frames = loaded.scene.output.frames > 0;
 #ifdef NSFRAME_HAS_VTK
@@ -137,6 +139,7 @@ int run(const SceneArguments& arguments) {
     summary.floor_spectra_damping = spectra->damping();
     for (std::string& warning : spectrum_warnings(*spectra, summary.dt)) summary.warnings.push_back(std::move(warning));
   }
+  for (std::string& warning : sliding.warnings()) summary.warnings.push_back(std::move(warning));
   write_summary(summary, folder / "summary.json");
   if (!arguments.quiet) {
     fmt::print("{}", summary_text(summary));

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <initializer_list>
 
-#include "base/rotation.hpp"
-#include "output/beam_shapes.hpp"
 #include "output/polygon.hpp"
 
 namespace nsframe {
@@ -32,7 +30,7 @@ class Builder {
   void draw_elements();
   void draw_member(const ElementGroup& group, int element, const CellOwner& owner);
   int finite_station(const ElementNodes& nodes, double along);
-  int beam_station(const ElementNodes& nodes, const ElementShape& shape, double along);
+  int point_station(const ContactPoint& point);
   void draw_sweep(const std::vector<int>& stations, const Vector3& start, const ElementShape& shape,
                   const SectionOutline& outline, const CellOwner& owner);
   void draw_curve(const std::vector<int>& stations, const Vector3& start, const ElementShape& shape,
@@ -100,22 +98,12 @@ void Builder::add_cell(CellType type, std::initializer_list<int> points, const C
   out_.along.push_back(along);
 }
 
-// Motion of the cross-section at `along` by the shape functions of a beam, carried to the nodes by its rigid arms.
-int Builder::beam_station(const ElementNodes& nodes, const ElementShape& shape, double along) {
-  const Eigen::Matrix<double, 6, 12> local = beam_shape_functions(along, shape.length);
+// The station that moves with a point of contact, or with a cross-section of a beam.
+int Builder::point_station(const ContactPoint& point) {
   const int station = add_station();
-  for (int row = 0; row < 6; row += 3) {
-    for (int end = 0; end < 2; ++end) {
-      const Matrix3 by_shift = shape.axes.transpose() * local.block<3, 3>(row, 6 * end) * shape.axes;
-      const Matrix3 by_turn = shape.axes.transpose() * local.block<3, 3>(row, 6 * end + 3) * shape.axes -
-                              by_shift * skew(shape.offset[static_cast<std::size_t>(end)]);
-      const int node = nodes[static_cast<std::size_t>(end)];
-      for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-          couple(station, row + i, 6 * node + j, by_shift(i, j));
-          couple(station, row + i, 6 * node + 3 + j, by_turn(i, j));
-        }
-      }
+  for (const PointShare& share : point.shares) {
+    for (int i = 0; i < 6; ++i) {
+      for (int j = 0; j < 6; ++j) couple(station, i, 6 * share.node + j, share.of_node(i, j));
     }
   }
   return station;
@@ -143,7 +131,8 @@ void Builder::draw_member(const ElementGroup& group, int element, const CellOwne
   std::vector<int> stations;
   for (int k = 0; k <= segments_; ++k) {
     const double along = double(k) / segments_;
-    stations.push_back(shape.finite ? finite_station(nodes, along) : beam_station(nodes, shape, along));
+    stations.push_back(shape.finite ? finite_station(nodes, along)
+                                    : point_station(beam_point(nodes, shape, position_of(model_, nodes[0]), along)));
   }
   const SectionOutline outline = shape.outline ? tidy(*shape.outline) : SectionOutline{};
   const Vector3 start = position_of(model_, nodes[0]) + shape.offset[0];
@@ -249,17 +238,14 @@ void Builder::draw_slab(const Slab& slab) {
   }
 }
 
-// A wall has no node: its side of the pair stays at the initial gap in front of the node.
+// A wall does not move: its side of the pair stays at the initial gap in front of the point.
 void Builder::draw_contact(int pair) {
   const ContactPair& contact = model_.contacts.pairs[static_cast<std::size_t>(pair)];
-  if (contact.node_a < 0) return;
-  const Vector3& from = position_of(model_, contact.node_a);
-  const int first = add_point(node_station(contact.node_a), from, Vector3::Zero());
-  const int last =
-      contact.node_b >= 0
-          ? add_point(node_station(contact.node_b), position_of(model_, contact.node_b), Vector3::Zero())
-          : add_point(add_station(), from + model_.contacts.initial_gap[pair] * contact.normal, Vector3::Zero());
-  add_cell(CellType::line, {first, last}, {kind_contact, -1, pair, structure_of(model_, contact.node_a)}, 0);
+  const Vector3& from = contact.a.position;
+  const Vector3 to = contact.b.fixed() ? Vector3(from + model_.contacts.initial_gap[pair] * contact.normal) : contact.b.position;
+  const int first = add_point(point_station(contact.a), from, Vector3::Zero());
+  const int last = add_point(point_station(contact.b), to, Vector3::Zero());
+  add_cell(CellType::line, {first, last}, {kind_contact, -1, pair, structure_of(model_, contact.a.first_node())}, 0);
 }
 
 FrameGeometry Builder::build() {

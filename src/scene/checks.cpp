@@ -124,25 +124,41 @@ void check(TableReader& table, const StoryFrameTable& frame) {
   for (const std::string& fault : faults(frame.frame)) table.error(fault.substr(0, fault.find_first_of(" .")), fault);
 }
 
+namespace {
+
+void check_sides(TableReader& table, const ContactTable& contact, const ContactSides& pair) {
+  const auto& [a, b] = pair;
+  const ContactKind kind = contact_kind(contact, pair);
+  if (a.name == "ground") return table.error("between", "the ground must be the last side of a contact");
+  const bool ground = b.name == "ground";
+  if (ground && kind != ContactKind::nodes && kind != ContactKind::wall)
+    return table.error("kind", "contact with the ground is of kind \"nodes\" or \"wall\"");
+  if (!ground && kind == ContactKind::wall)
+    return table.error("between", fmt::format("a wall is between a structure and \"ground\", not '{}'", b.name));
+  for (const Reference& side : {a, b}) {
+    if (kind == ContactKind::nodes && side.name != "ground" && side.name.find('.') == std::string::npos)
+      table.error(contact.a ? "a" : "between", fmt::format("'{}' is not a node, written as \"structure.node\"", side.name));
+  }
+}
+
+}  // namespace
+
 void check(TableReader& table, const ContactTable& contact) {
   if (!contact.between.empty() && (contact.a || contact.b))
     return table.error("between", "a contact has either between, or a and b");
   if (contact.a.has_value() != contact.b.has_value())
     return table.error(contact.a ? "a" : "b", "a contact needs a and b");
-  if (!contact.a && contact.between.size() != 2)
-    return table.error("between", "a contact needs two sides: between = [first, second]");
-  const auto [a, b] = sides(contact);
-  const bool nodes = contact_kind(contact) == ContactKind::nodes;
-  if (a.name == "ground") return table.error("between", "the ground must be the second side of a contact");
-  if (!nodes && b.name == "ground")
-    return table.error("kind", "contact with the ground is between a node and \"ground\"");
-  for (const Reference& side : {a, b}) {
-    if (side.name == "ground") continue;
-    if (nodes && side.name.find('.') == std::string::npos)
-      table.error(contact.a ? "a" : "between",
-                  fmt::format("'{}' is not a node, written as \"structure.node\"", side.name));
+  if (!contact.a && contact.between.size() < 2)
+    return table.error("between", "a contact needs two sides: between = [first, second], or more in a row");
+  if (contact.restitution.values.empty()) return table.error("restitution", "restitution has no value");
+  bool fixed = false;
+  for (const ContactSides& pair : sides(contact)) {
+    check_sides(table, contact, pair);
+    fixed = fixed || pair.second.name == "ground";
   }
-  if (b.name == "ground" && contact.gap.values.empty()) table.error("between", "contact with the ground needs a gap");
+  if (!fixed && contact.wall) table.error("wall", "a wall belongs to a contact with \"ground\"");
+  if (fixed && !contact.wall && contact.gap.values.empty())
+    table.error("between", "contact with the ground needs a gap, or a wall");
 }
 
 void check(TableReader& table, const MotionTable& motion) {

@@ -55,30 +55,37 @@ SectionDescription describe(const SectionTable& section, const std::vector<Mater
   return out;
 }
 
-std::pair<Reference, Reference> sides(const ContactTable& contact) {
-  if (contact.a && contact.b) return {*contact.a, *contact.b};
-  if (contact.between.size() == 2) return {contact.between[0], contact.between[1]};
-  return {};
+std::vector<ContactSides> sides(const ContactTable& contact) {
+  if (contact.a && contact.b) return {{*contact.a, *contact.b}};
+  std::vector<ContactSides> out;
+  for (std::size_t i = 0; i + 1 < contact.between.size(); ++i) out.emplace_back(contact.between[i], contact.between[i + 1]);
+  return out;
 }
 
-ContactKind contact_kind(const ContactTable& contact) {
+ContactKind contact_kind(const ContactTable& contact, const ContactSides& sides) {
   if (contact.kind) return *contact.kind;
-  const auto [a, b] = sides(contact);
-  const bool nodes = contact.a || b.name == "ground" || a.name.find('.') != std::string::npos;
-  return nodes ? ContactKind::nodes : ContactKind::slab_corners;
+  if (contact.a || sides.first.name.find('.') != std::string::npos) return ContactKind::nodes;
+  return sides.second.name == "ground" ? ContactKind::wall : ContactKind::slab_corners;
 }
 
-ContactDescription describe(const ContactTable& contact) {
-  ContactDescription out;
-  out.at = contact.at;
-  out.name = contact.name;
-  out.kind = contact_kind(contact);
-  const auto [a, b] = sides(contact);
-  out.a = a;
-  if (b.name != "ground") out.b = b;
-  out.direction = contact.direction.vector;
-  out.gap = contact.gap.values;
-  out.restitution = contact.restitution;
+std::vector<ContactDescription> describe(const ContactTable& contact) {
+  std::vector<ContactDescription> out;
+  for (const ContactSides& pair : sides(contact)) {
+    ContactDescription& one = out.emplace_back();
+    one.at = contact.at;
+    one.name = contact.name;
+    one.kind = contact_kind(contact, pair);
+    one.a = pair.first;
+    if (pair.second.name != "ground") one.b = pair.second;
+    one.direction = contact.direction.vector;
+    one.gap = contact.gap.values;
+    one.restitution = contact.restitution.values.front();
+    if (contact.restitution.values.size() > 1) one.restitutions = contact.restitution.values;
+    one.wall = contact.wall;
+    one.reach = contact.reach;
+    one.gap_tolerance = contact.gap_tolerance;
+    one.sliding_error = contact.sliding_error;
+  }
   return out;
 }
 
@@ -104,7 +111,7 @@ void describe_model(Scene& scene, Diagnostics& diagnostics) {
     std::visit([&](const auto& s) { model.structures.push_back(describe(s)); }, structure);
   }
   for (const ContactTable& contact : scene.tables.contacts)
-    if (!sides(contact).first.name.empty()) model.contacts.push_back(describe(contact));
+    for (ContactDescription& described : describe(contact)) model.contacts.push_back(std::move(described));
   for (const MotionTable& motion : scene.tables.motions)
     if (auto described = describe(motion, scene.directory, diagnostics)) model.motions.push_back(std::move(*described));
   for (const StageTable& stage : scene.tables.stages)

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <utility>
+#include <vector>
 
 #include "base/diagnostics.hpp"
 #include "models/materials.hpp"
@@ -21,11 +22,13 @@ StructureDescription describe(const StoryFrameTable& frame);
 // Laws of its own that the structure's elements name: of struts.
 std::vector<MaterialDescription> own_materials(const ExplicitStructure& structure);
 DampingDescription describe(const DampingTable& damping);
-ContactDescription describe(const ContactTable& contact);
+// One for two neighbours of a row of structures.
+std::vector<ContactDescription> describe(const ContactTable& contact);
 
-// The two sides of a contact, and its kind, however they are written.
-std::pair<Reference, Reference> sides(const ContactTable& contact);
-ContactKind contact_kind(const ContactTable& contact);
+// Two sides of a contact, however they are written; of several in a row, each with the next.
+using ContactSides = std::pair<Reference, Reference>;
+std::vector<ContactSides> sides(const ContactTable& contact);
+ContactKind contact_kind(const ContactTable& contact, const ContactSides& sides);
 
 // The tables that describe() turns into this structure.
 ExplicitStructure tables(const StructureDescription& structure);

@@ -234,7 +234,8 @@ void Reader::read(const Value& value, const Field& field, RatioTable& out) {
   }
 }
 
-void Reader::read(const Value& value, const Field& field, GapList& out) {
+void Reader::read(const Value& value, const Field& field, PairValues& out) {
+  out.values.clear();
   for (const Value& item : items(value)) {
     const toml::node* node = item.single();
     std::vector<double> row;

@@ -61,7 +61,7 @@ class Reader {
   void read(const Value& value, const Field& field, DofSet& out);
   void read(const Value& value, const Field& field, Vector3& out);
   void read(const Value& value, const Field& field, RatioTable& out);
-  void read(const Value& value, const Field& field, GapList& out);
+  void read(const Value& value, const Field& field, PairValues& out);
   void read(const Value& value, const Field& field, MaterialTable& out);
   void read(const Value& value, const Field& field, SectionTable& out);
   void read(const Value& value, const Field& field, StructureTable& out);

@@ -27,7 +27,7 @@ std::string kind_of(const Field&, const Direction*) { return "\"x\", \"-y\" ... 
 std::string kind_of(const Field&, const DofSet*) { return "DOFs"; }
 std::string kind_of(const Field& field, const Vector3*) { return number_kind(field) + ", three"; }
 std::string kind_of(const Field&, const RatioTable*) { return "list, or table by mode"; }
-std::string kind_of(const Field& field, const GapList*) { return number_kind(field) + ", one or more"; }
+std::string kind_of(const Field& field, const PairValues*) { return number_kind(field) + ", one or more"; }
 
 template <class Enum>
 requires std::is_enum_v<Enum> std::string kind_of(const Field&, const Enum*) {

@@ -47,9 +47,6 @@ constexpr auto names_of(DampingKind) {
   return Names<DampingKind, 3>{
       {{"none", DampingKind::none}, {"modal", DampingKind::modal}, {"rayleigh", DampingKind::rayleigh}}};
 }
-constexpr auto names_of(ContactKind) {
-  return Names<ContactKind, 2>{{{"slab-corners", ContactKind::slab_corners}, {"nodes", ContactKind::nodes}}};
-}
 constexpr auto names_of(MotionUnit) {
   return Names<MotionUnit, 2>{{{"g", MotionUnit::g}, {"m/s2", MotionUnit::metres}}};
 }

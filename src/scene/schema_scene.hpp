@@ -3,6 +3,7 @@
 
 #include "scene/scene.hpp"
 #include "scene/schema.hpp"
+#include "scene/schema_contact.hpp"
 #include "scene/schema_structure.hpp"
 
 namespace nsframe {

@@ -241,7 +241,7 @@ void visit(Archive& ar, SlabTable& s) {
   ar(Field{"nodes", "further nodes tied by a rigid slab or diaphragm"}, s.nodes);
   ar(Field{"kind", "links: carried by elements given elsewhere; rigid: one rigid body; diaphragm: rigid in its plane"},
      s.kind);
-  ar(Field{"thickness", "for drawing only", dimension::length, range::positive}, s.thickness);
+  ar(Field{"thickness", "for drawing; slabs of two structures meet where they overlap over it", dimension::length, range::positive}, s.thickness);
   ar(Field{.key = "rigid_contact",
            .text = "impacts act on the whole slab, not on the corner's share",
            .default_text = "unless kind is links"},
@@ -333,6 +333,13 @@ template <class Archive>
 void visit(Archive& ar, FrameColumns& m) {
   visit_members(ar, m);
   ar(Field{"depth", "direction of the sections' depth (their local y)"}, m.depth);
+  ar(Field{.key = "split",
+           .text = "levels above the base that have a node in every column, as those of a neighbour's floors; ids: of the node below, and "
+                   "a, b, ...",
+           .dimension = dimension::length,
+           .range = range::positive,
+           .default_text = "none"},
+     m.split);
 }
 
 template <class Archive>
@@ -341,7 +348,7 @@ void visit(Archive& ar, FrameSlab& s) {
            "links: elastic members from the centre to the columns; rigid: one body; diaphragm: rigid in its plane"},
      s.kind);
   ar(Field{"section", "of the links"}, s.section);
-  ar(Field{"thickness", "for drawing only", dimension::length, range::positive}, s.thickness);
+  ar(Field{"thickness", "for drawing; slabs of two structures meet where they overlap over it", dimension::length, range::positive}, s.thickness);
 }
 
 template <class Archive>

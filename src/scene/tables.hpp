@@ -230,9 +230,9 @@ using StructureTable = std::variant<ExplicitStructure, StoryFrameTable>;
 // --- contact, loads
 // ---------------------------------------------------------------------------------------------------
 
-// One value, a row, or rows of values.
-struct GapList {
-  std::vector<double> values;  // [m]
+// Of contact pairs: one value, a row, or rows of values.
+struct PairValues {
+  std::vector<double> values;
 };
 
 struct ContactTable {
@@ -242,8 +242,12 @@ struct ContactTable {
   std::vector<Reference> between;
   std::optional<Reference> a, b;  // in place of `between`
   Direction direction;
-  GapList gap;
-  double restitution = ContactDescription{}.restitution;
+  PairValues gap;  // [m]
+  PairValues restitution{{ContactDescription{}.restitution}};
+  std::optional<Vector3> wall;  // a point of it [m]
+  double reach = ContactDescription{}.reach;
+  double gap_tolerance = ContactDescription{}.gap_tolerance;
+  double sliding_error = ContactDescription{}.sliding_error;
 };
 
 // --- static stages

@@ -29,7 +29,7 @@ class ValueWriter {
   std::string write(const DofSet& value) const;
   std::string write(const Vector3& value) const;
   std::string write(const RatioTable& value) const;
-  std::string write(const GapList& value) const { return write(value.values); }
+  std::string write(const PairValues& value) const { return write(value.values); }
 
   template <class Enum>
   requires std::is_enum_v<Enum> std::string write(Enum value)

@@ -19,10 +19,11 @@ TEST_CASE("contacts between slabs: the number of gaps, the level, the overlap") 
   d.contacts = {slab_contact()};
   CHECK(error_of(d) == "no error");
   d.contacts = {slab_contact({0.1, 0.2, 0.3})};
-  CHECK(error_of(d) == "s.toml:50:3: error: 3 gaps for 2 corners on 1 floors: give one, two, or 2");
+  CHECK(error_of(d) == "s.toml:50:3: error: 3 gaps for 2 pairs on 1 floor: give one, or 2");
   d = two_slabs(3.5);
   d.contacts = {slab_contact()};
-  CHECK(error_of(d) == "s.toml:50:3: error: structures 'left' and 'right' have no slabs at the same level");
+  CHECK(error_of(d) == "s.toml:50:3: error: structures 'left' and 'right' have no slabs at the same level; kind = \"slab-columns\" or \"facing\" takes slabs "
+        "between the floors of the other");
   d = two_slabs();
   d.contacts = {slab_contact()};
   for (NodeDescription& item : d.structures[1].nodes) item.position.x() -= 0.15;
@@ -39,7 +40,8 @@ TEST_CASE("contacts between slabs: the number of gaps, the level, the overlap") 
   d = two_slabs();
   d.structures[1].nodes[0].position.x() -= 0.01;
   d.contacts = {slab_contact()};
-  CHECK(error_of(d) == "s.toml:50:3: error: slabs 'left.1' and 'right.1' do not face each other with two corners each");
+  CHECK(error_of(d) == "s.toml:50:3: error: slabs 'left.1' and 'right.1' do not face each other with two corners each; kind = \"slab-edges\" "
+        "takes slabs that are turned");
 }
 
 TEST_CASE("contacts between nodes: references, gaps, restitution, direction, and a side that can move") {
@@ -51,7 +53,7 @@ TEST_CASE("contacts between nodes: references, gaps, restitution, direction, and
   d.contacts = {node_contact("left.2", "right.1", {0.1, 0.2})};
   CHECK(error_of(d) == "s.toml:50:3: error: a contact of two nodes has one gap");
   d.contacts = {node_contact("left.2", "", {})};
-  CHECK(error_of(d) == "s.toml:50:3: error: a contact with the ground needs its gap");
+  CHECK(error_of(d) == "s.toml:50:3: error: a contact with the ground needs its gap, or a wall");
   for (const double e : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
     d.contacts = {node_contact("left.2", "right.1")};
     d.contacts[0].restitution = e;

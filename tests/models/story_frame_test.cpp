@@ -266,3 +266,46 @@ TEST_CASE("releases and rigid zones reach the members of a frame, along each mem
   frame.columns.rigid_ends = {2, 0.5};
   CHECK(faults(frame) == std::vector<std::string>{"columns.rigid_ends leave nothing of a member of 2.5 m"});
 }
+
+TEST_CASE("columns are split at given levels, each part with its share of the ends") {
+  StoryFrame frame = two_story();
+  frame.columns.split = {4.0, 1.2, 0.7};
+  frame.columns.rigid_ends = {0.1, 0.2};
+  frame.columns.end_section = {{"stiff", {}}};
+  frame.columns.releases = EndReleases{};
+  frame.columns.releases->j.dofs[5] = true;
+  const StructureDescription s = expand(frame);
+  CHECK(s.nodes.size() == 14 + 12);
+  const auto at = positions(s);
+  CHECK((at.at("2a") - (at.at("2") + Vector3(0, 0, 0.7))).norm() < 1e-15);
+  CHECK((at.at("2b") - (at.at("2") + Vector3(0, 0, 1.2))).norm() < 1e-15);
+  CHECK((at.at("12a") - (at.at("12") + Vector3(0, 0, 1.5))).norm() < 1e-14);
+  const ElementDescription &lowest = element(s, "1"), &middle = element(s, "2"), &highest = element(s, "3");
+  CHECK(lowest.node_i.name + lowest.node_j.name + middle.node_j.name + highest.node_j.name == "11a1b11");
+  CHECK(lowest.sections[0].name + lowest.sections[2].name == "stiffHEA100");
+  CHECK(middle.sections[0].name + middle.sections[2].name == "HEA100HEA100");
+  CHECK(highest.sections[0].name + highest.sections[2].name == "HEA100stiff");
+  CHECK(lowest.offset[0] == Vector3(0, 0, 0.1));
+  CHECK(lowest.offset[1].norm() + middle.offset[0].norm() + middle.offset[1].norm() + highest.offset[0].norm() == 0);
+  CHECK((highest.offset[1] + Vector3(0, 0, 0.2)).norm() < 1e-15);
+  CHECK_FALSE(lowest.releases.any());
+  CHECK_FALSE(middle.releases.any());
+  CHECK(highest.releases.any());
+}
+
+TEST_CASE("columns are not split outside the frame, at floors, twice or where hinges would come between") {
+  StoryFrame frame = two_story();
+  const auto fault = [&](std::vector<double> split) {
+    frame.columns.split = std::move(split);
+    const auto found = faults(frame);
+    return found.empty() ? std::string("none") : found.front();
+  };
+  CHECK(fault({1.0}) == "none");
+  CHECK(fault({5.5}) == "columns.split = 5.5 m lies outside the frame of 5 m");
+  CHECK(fault({2.5}) == "columns.split = 2.5 m is at a floor or within a rigid end, or given twice");
+  CHECK(fault({1.0, 1.0}) == "columns.split = 1 m is at a floor or within a rigid end, or given twice");
+  frame.columns.rigid_ends = {0.3, 0};
+  CHECK(fault({2.7}) == "columns.split = 2.7 m is at a floor or within a rigid end, or given twice");
+  frame.columns.integration.rule = "hinge-radau";
+  CHECK(fault({1.0}) == "columns.split would put plastic hinges within the columns; use another integration");
+}

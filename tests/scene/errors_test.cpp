@@ -241,16 +241,16 @@ TEST_CASE("a node to keep that isn't in the scene is an error") {
 
 TEST_CASE("a contact without two sides is an error") {
   CHECK(error("[[contact]]\nbetween = [\"a\"]") ==
-        "s.toml:2:11: error: a contact needs two sides: between = [first, second]");
+        "s.toml:2:11: error: a contact needs two sides: between = [first, second], or more in a row");
   CHECK(error("[[contact]]\na = \"a.1\"") == "s.toml:2:5: error: a contact needs a and b");
   CHECK(error("[[contact]]\nbetween = [\"ground\", \"a.1\"]") ==
-        "s.toml:2:11: error: the ground must be the second side of a contact");
+        "s.toml:2:11: error: the ground must be the last side of a contact");
   CHECK(error("[[contact]]\nbetween = [\"a.1\", \"ground\"]") ==
-        "s.toml:2:11: error: contact with the ground needs a gap");
+        "s.toml:2:11: error: contact with the ground needs a gap, or a wall");
   CHECK(error("[[contact]]\nkind = \"nodes\"\nbetween = [\"a.1\", \"b\"]\n") ==
         "s.toml:3:11: error: 'b' is not a node, written as \"structure.node\"");
   CHECK(error("[[contact]]\nkind = \"slab-corners\"\nbetween = [\"a\", \"ground\"]\ngap = 1") ==
-        "s.toml:2:8: error: contact with the ground is between a node and \"ground\"");
+        "s.toml:2:8: error: contact with the ground is of kind \"nodes\" or \"wall\"");
 }
 
 TEST_CASE("a rigid slab without a center is an error") {
@@ -278,6 +278,6 @@ TEST_CASE("all errors of a scene are reported at once, in the order of their pla
                        "s.toml:2:9: error: theta = 2, must lie in [0.5, 1]\n"
                        "s.toml:3:6: error: dt = -1, must be positive\n"
                        "s.toml:6:5: error: E = \"1 m\" is a length, must be a stress (Pa)\n"
-                       "s.toml:7:1: error: a contact needs two sides: between = [first, second]",
+                       "s.toml:7:1: error: a contact needs two sides: between = [first, second], or more in a row",
                        InputError);
 }

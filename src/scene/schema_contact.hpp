@@ -1,0 +1,54 @@
+// The schema of contacts; see schema.hpp.
+#pragma once
+
+#include "scene/schema.hpp"
+
+namespace nsframe {
+
+constexpr auto names_of(ContactKind) {
+  return Names<ContactKind, 6>{{{"slab-corners", ContactKind::slab_corners},
+                                {"slab-edges", ContactKind::slab_edges},
+                                {"slab-columns", ContactKind::slab_columns},
+                                {"facing", ContactKind::facing},
+                                {"wall", ContactKind::wall},
+                                {"nodes", ContactKind::nodes}}};
+}
+
+template <class Archive>
+void visit(Archive& ar, ContactTable& c) {
+  ar(Field{"name", "prefix of the pairs' names"}, c.name);
+  ar(Field{.key = "kind",
+           .text = "slab-corners: facing corners of slabs at one level; slab-edges: corners of either's slabs against edges of the "
+                   "other's; slab-columns: slabs of either against columns of the other, between its floors; facing: slab edges "
+                   "where there is a slab, else columns; wall: corners of slabs against a fixed plane; nodes: one node against "
+                   "another or the ground",
+           .default_text = "by the names in `between`"},
+     c.kind);
+  ar(Field{"between",
+           "two structures, or more in a row, each against the next; or a structure and \"ground\" (a wall); or two nodes "
+           "`structure.node`, or a node and \"ground\""},
+     c.between);
+  ar(Field{"a", "one node, with `b` in place of `between`"}, c.a);
+  ar(Field{"b", "the other node, or \"ground\""}, c.b);
+  ar(Field{"direction", "from the first to the second"}, c.direction);
+  ar(Field{.key = "wall", .text = "x, y, z of a point of the fixed plane, which stands across `direction`", .dimension = dimension::length,
+           .default_text = "by `gap`"},
+     c.wall);
+  ar(Field{.key = "gap",
+           .text = "one value; or one a pair of a floor by rising y (or x); or rows of these, one a floor from the lowest",
+           .dimension = dimension::length,
+           .default_text = "from the coordinates"},
+     c.gap);
+  ar(Field{"gap_tolerance",
+           "largest difference of a given gap from the distance of the coordinates: slabs may overhang their columns",
+           dimension::length, range::non_negative},
+     c.gap_tolerance);
+  ar(Field{"reach", "pairs farther apart are left out; not of slab-corners and nodes", dimension::length, range::positive}, c.reach);
+  ar(Field{"sliding_error",
+           "a run warns when sliding along a turned face makes the gap wrong by more (theory.md, 187)", dimension::length,
+           range::positive},
+     c.sliding_error);
+  ar(Field{"restitution", "Newton's e; one value, or listed as `gap`", {}, range::unit}, c.restitution);
+}
+
+}  // namespace nsframe
