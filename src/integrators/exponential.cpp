@@ -229,9 +229,27 @@ void Exponential::step(System& system, const State& committed, State& trial, dou
   result.least_gap = std::numeric_limits<double>::infinity();
   const bool fresh = last_displacement_.size() != committed.displacement.size() || last_displacement_ != committed.displacement ||
                      last_velocity_ != committed.velocity;
+  last_displacement_.resize(0);  // a step that fails leaves the flow somewhere: the next one then begins afresh
   if (fresh) start(system, committed);
   flow_.clear_impulse();
   evaluations_ = 0;
+  make_parts(system, committed, trial, h, fresh, result);
+  result.evaluations = evaluations_;
+  trial.time = committed.time + h;
+  flow_.write(trial.displacement, trial.velocity);
+  trial.displacement -= now_.massless;
+  trial.velocity -= massless_rate_;
+  trial.internal_force.resize(now_.force.size());
+  stiffness_.multiply(trial.displacement, trial.internal_force);
+  trial.internal_force += now_.force;
+  trial.acceleration = (trial.velocity - committed.velocity) / h;
+  trial.impulse = flow_.impulse();
+  peak_ = std::max(peak_, trial.displacement.cwiseAbs().maxCoeff());
+  last_displacement_ = trial.displacement;
+  last_velocity_ = trial.velocity;
+}
+
+void Exponential::make_parts(System& system, const State& committed, State& trial, double h, bool fresh, StepResult& result) {
   // parts of h / 2^level, in units of h / 2^most_levels
   constexpr long whole = 1L << most_levels;
   const VectorX* from = &committed.history;
@@ -249,20 +267,7 @@ void Exponential::step(System& system, const State& committed, State& trial, dou
       ++result.rejected_parts;
     }
   }
-  result.evaluations = evaluations_;
-  trial.time = committed.time + h;
-  flow_.write(trial.displacement, trial.velocity);
-  trial.displacement -= now_.massless;
-  trial.velocity -= massless_rate_;
-  trial.internal_force.resize(now_.force.size());
-  stiffness_.multiply(trial.displacement, trial.internal_force);
-  trial.internal_force += now_.force;
   if (from != &trial.history) std::swap(trial.history, history_);
-  trial.acceleration = (trial.velocity - committed.velocity) / h;
-  trial.impulse = flow_.impulse();
-  peak_ = std::max(peak_, trial.displacement.cwiseAbs().maxCoeff());
-  last_displacement_ = trial.displacement;
-  last_velocity_ = trial.velocity;
 }
 
 void Exponential::save(Snapshot& snapshot) const {

@@ -31,6 +31,7 @@ class Exponential : public Scheme {
   // Evaluates the elements at the flow's end, with histories; what has no mass stands where `massless` = F r wants it, and is
   // followed until it rests: by K, or by a tangent where K does not lead there quickly. Fills next_.
   void evaluate(System& system, const VectorX& massless, const VectorX& committed, VectorX& trial);
+  void make_parts(System& system, const State& committed, State& trial, double h, bool fresh, StepResult& result);
   // One part of a step; false, with everything as before, when its error is too large.
   bool advance(System& system, double time, double s, bool starting, const VectorX& committed, VectorX& trial, StepResult& result);
   // Error of a part of length s, from the modal r that was not expected, relative to what the options allow.

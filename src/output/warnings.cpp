@@ -35,8 +35,8 @@ void of_light_contact_nodes(const Model& model, const Summary& summary, Sentence
   for (const Pounding& pounding : summary.poundings) {
     const ContactPair& pair = pairs[static_cast<std::size_t>(pounding.pair)];
     if (pair.rigid_bodies) continue;
-    for (const int node : {pair.node_a, pair.node_b}) {
-      if (node >= 0) share = std::min(share, share_of_slab(model, node));
+    for (const ContactPoint* point : {&pair.a, &pair.b}) {
+      for (const PointShare& part : point->shares) share = std::min(share, share_of_slab(model, part.node));
     }
     least = std::min(least, pounding.effective_restitution);
     most = std::max(most, pounding.effective_restitution);
