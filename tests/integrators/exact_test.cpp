@@ -48,7 +48,7 @@ TEST_CASE("exact: nonlinear elements and damping that couples the modes are refu
   AnalysisOptions named = exactly(1e-3, 0.1);
   named.scheme_at = {"s.toml", 7, 10};
   CHECK_THROWS_WITH_AS(run(nonlinear, named),
-                       "s.toml:7:10: error: scheme 'exact' is for linear scenes, and element 's.k' (spring) is nonlinear; use scheme = \"moreau-jean\"",
+                       "s.toml:7:10: error: scheme 'exact' is for linear scenes, and element 's.k' (spring) is nonlinear; use scheme = \"exponential\" or \"moreau-jean\"",
                        InputError);
   ModelDescription d = linear_oscillator(1, 100, 0);
   CHECK(reason(d) == "no error");

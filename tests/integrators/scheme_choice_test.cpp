@@ -25,13 +25,18 @@ bool tells(const Chosen& chosen, const std::string& what) { return chosen.reason
 
 }  // namespace
 
-TEST_CASE("without a scheme, a linear scene is moved exactly and a nonlinear one by Moreau-Jean, and the run says why") {
+TEST_CASE("without a scheme, a linear scene is moved exactly and a nonlinear one by the exponential scheme, and the run says why") {
   const Chosen linear = chosen(linear_oscillator(1, 100, 0.02, 0.01));
   CHECK(linear.scheme == "exact");
   CHECK(tells(linear, "linear"));
   const Chosen nonlinear = chosen(nonlinear_oscillator(100, Steel02{1e4, 1e6, 0.01}, 0, 4));
-  CHECK(nonlinear.scheme == "moreau-jean");
+  CHECK(nonlinear.scheme == "exponential");
   CHECK(tells(nonlinear, "element 's.k' (spring) is nonlinear"));
+  ModelDescription damped = nonlinear_oscillator(100, Viscous{1e3, 0.5}, 0, 4);
+  damped.structures[0].springs.push_back(ground_spring("elastic", "1", 1e4 * Vector6::Unit(0)));
+  const Chosen rate = chosen(damped);
+  CHECK(rate.scheme == "moreau-jean");
+  CHECK(tells(rate, "rate of deformation"));
 }
 
 TEST_CASE("auto leaves to Moreau-Jean what exact cannot take: overlap at the start, damping that couples modes") {

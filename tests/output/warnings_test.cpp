@@ -12,7 +12,12 @@ struct Run {
   Summary summary;
 
   Run() {
-    model.contacts.pairs = {{"left.1|right.1", 0, 1, Vector3::UnitX(), true}};
+    model.contacts.pairs.resize(1);
+    ContactPair& pair = model.contacts.pairs[0];
+    pair.name = "left.1|right.1";
+    pair.a = node_point(0, Vector3::Zero(), false);
+    pair.b = node_point(1, Vector3::Zero(), false);
+    pair.rigid_bodies = true;
     model.contacts.initial_gap = VectorX::Constant(1, 0.02);
     model.contacts.restitution = VectorX::Constant(1, 0.6);
     model.nodal_mass = VectorX::Constant(6 * 10, 1.0);

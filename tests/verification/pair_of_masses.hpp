@@ -42,6 +42,7 @@ inline ContactDescription contact_of(int a, int b, double gap, double restitutio
   c.a = {fmt::format("s{}.1", a), {}};
   if (b >= 0) c.b = Reference{fmt::format("s{}.1", b), {}};
   c.gap = {gap};
+  c.gap_tolerance = 10;  // the masses stand apart to be told from each other
   c.restitution = restitution;
   return c;
 }
