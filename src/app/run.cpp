@@ -24,7 +24,7 @@ namespace nsframe::app {
 
 namespace {
 
-// Pairs whose restitution acts on a corner of a flexible slab, not on the slab.
+// Pairs whose restitution acts on a point of a flexible slab or of a column, not on whole slabs.
 std::vector<std::string> contact_warnings(const Model& model, const Summary& summary) {
   bool flexible = false;
   for (const ContactPair& pair : model.contacts.pairs) flexible = flexible || !pair.rigid_bodies;
@@ -37,8 +37,8 @@ std::vector<std::string> contact_warnings(const Model& model, const Summary& sum
     }
     const std::string came_out = most - least < 0.005 ? fmt::format("as {:.2f}", least)
                                                       : fmt::format("between {:.2f} and {:.2f}", least, most);
-    warnings.push_back(fmt::format("the restitution acts on corner nodes of flexible slabs, each with its share of the mass: "
-                                   "that of the poundings came out {}; rigid slabs would have that of the scene",
+    warnings.push_back(fmt::format("the restitution acts on points of flexible slabs or of columns, each with its share of the mass: "
+                                   "that of the poundings came out {}; rigid slabs against each other would have that of the scene",
                                    came_out));
   }
   return warnings;
