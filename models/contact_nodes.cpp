@@ -22,6 +22,7 @@ std::vector<PairDraft> find_nodes(const ContactDescription& contact, const Conta
   if (b >= 0) draft.pair.b = node_point(b, scene.position(b), true);
   draft.pair.normal = contact.direction;
   draft.pair.rigid_bodies = true;
+  if (!contact.gap.empty()) return {draft};  // nodes of small models often stand anywhere: a given gap counts alone
   if (b >= 0) draft.distance = (scene.position(b) - scene.position(a)).dot(contact.direction);
   if (b < 0 && contact.wall) draft.distance = (*contact.wall - scene.position(a)).dot(contact.direction);
   return {draft};

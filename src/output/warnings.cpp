@@ -44,8 +44,8 @@ void of_light_contact_nodes(const Model& model, const Summary& summary, Sentence
   if (least > most) return;
   const std::string came_out = most - least < 0.005 ? fmt::format("as {:.2f}", least)
                                                     : fmt::format("between {:.2f} and {:.2f}", least, most);
-  out.push_back(fmt::format("the restitution acts on corner nodes of flexible slabs, each with its share of the mass{}: "
-                            "that of the poundings came out {}; rigid slabs would have that of the scene",
+  out.push_back(fmt::format("the restitution acts on points of flexible slabs or of columns, each with its share of the mass{}: "
+                            "that of the poundings came out {}; rigid slabs against each other would have that of the scene",
                             share < 1 ? fmt::format(" (down to {:.0f} % of a slab)", 100 * share) : "", came_out));
 }
 

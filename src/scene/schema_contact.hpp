@@ -40,7 +40,7 @@ void visit(Archive& ar, ContactTable& c) {
            .default_text = "from the coordinates"},
      c.gap);
   ar(Field{"gap_tolerance",
-           "largest difference of a given gap from the distance of the coordinates: slabs may overhang their columns",
+           "largest difference of a given gap from the distance of the coordinates: slabs may overhang their columns; not of nodes",
            dimension::length, range::non_negative},
      c.gap_tolerance);
   ar(Field{"reach", "pairs farther apart are left out; not of slab-corners and nodes", dimension::length, range::positive}, c.reach);
