@@ -64,8 +64,8 @@ TEST_CASE("restitution at a light corner of a flexible slab is told with the cor
   run.model.slabs = {slab};
   REQUIRE(run.warnings().size() == 1);
   CHECK(run.warnings()[0] ==
-        "the restitution acts on corner nodes of flexible slabs, each with its share of the mass (down to 12 % of a slab): that of "
-        "the poundings came out as 0.60; rigid slabs would have that of the scene");
+        "the restitution acts on points of flexible slabs or of columns, each with its share of the mass (down to 12 % of a slab): that of "
+        "the poundings came out as 0.60; rigid slabs against each other would have that of the scene");
   run.summary.poundings.clear();
   CHECK(run.warnings().empty());
 }
