@@ -162,6 +162,35 @@ TEST_CASE("the names of a contact's sides tell its kind") {
   CHECK(long_form.direction == -Vector3::UnitY());
 }
 
+TEST_CASE("structures in a row meet each the next, and the last of them the ground") {
+  const auto row = scene("[[contact]]\nbetween = [\"a\", \"b\", \"c\", \"ground\"]\nwall = [\"12 m\", 0, 0]\nrestitution = 0.3").model.contacts;
+  REQUIRE(row.size() == 3);
+  CHECK(row[1].a.name + row[1].b->name == "bc");
+  CHECK(row[1].kind == ContactKind::slab_corners);
+  CHECK(row[2].kind == ContactKind::wall);
+  CHECK_FALSE(row[2].b);
+  CHECK(*row[2].wall == Vector3(12, 0, 0));
+  CHECK(row[2].restitution == 0.3);
+  CHECK(test::error("[[contact]]\nbetween = [\"a\", \"ground\", \"b\"]\ngap = 1") ==
+        "s.toml:2:11: error: the ground must be the last side of a contact");
+  CHECK(test::error("[[contact]]\nbetween = [\"a\", \"b\"]\nwall = [1, 2, 3]") ==
+        "s.toml:3:8: error: a wall belongs to a contact with \"ground\"");
+  CHECK(test::error("[[contact]]\nkind = \"wall\"\nbetween = [\"a\", \"b\"]") ==
+        "s.toml:3:11: error: a wall is between a structure and \"ground\", not 'b'");
+}
+
+TEST_CASE("kinds, restitution by pair and the tolerances of a contact are read") {
+  const ContactDescription c = contact("kind = \"facing\"\nbetween = [\"a\", \"b\"]\nrestitution = [[0.2, 0.3], [0.4, 0.5]]\n"
+                                       "reach = \"2 m\"\ngap_tolerance = \"10 cm\"\nsliding_error = \"3 mm\"");
+  CHECK(c.kind == ContactKind::facing);
+  CHECK(c.restitutions == std::vector<double>{0.2, 0.3, 0.4, 0.5});
+  CHECK(c.reach == 2);
+  CHECK(c.gap_tolerance == doctest::Approx(0.1).epsilon(1e-15));
+  CHECK(c.sliding_error == doctest::Approx(0.003).epsilon(1e-15));
+  CHECK(contact("kind = \"slab-edges\"\nbetween = [\"a\", \"b\"]").kind == ContactKind::slab_edges);
+  CHECK(contact("kind = \"slab-columns\"\nbetween = [\"a\", \"b\"]").kind == ContactKind::slab_columns);
+}
+
 TEST_CASE("gaps are one for all, one a corner, or one a corner and floor") {
   const std::string sides = "between = [\"a\", \"b\"]\n";
   CHECK(contact(sides).gap.empty());
