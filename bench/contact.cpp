@@ -2,6 +2,7 @@
 // heavy on light, where Gauss-Seidel needs of the order of the mass ratio in sweeps.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <random>
 
 #include "contact/contact_problem.hpp"
@@ -36,6 +37,13 @@ ContactProblem stack_problem() {
   return {delassus, rhs};
 }
 
+// All of n pairs closing, each felt by its neighbours with a tenth of the weight from one to the next: like the corners of
+// two tall buildings at a step of a millisecond.
+ContactProblem tower_problem(Eigen::Index n) {
+  return {MatrixX::NullaryExpr(n, n, [](Eigen::Index i, Eigen::Index j) { return std::pow(0.1, std::abs(double(i - j))); }),
+          VectorX::NullaryExpr(n, [](Eigen::Index i) { return -1 - 0.5 * std::sin(double(i)); })};
+}
+
 void active_set(benchmark::State& state, const ContactProblem& problem) {
   ContactSolution solution;
   for (auto _ : state) benchmark::DoNotOptimize(solution = solve_active_set(problem, {}));
@@ -53,6 +61,21 @@ void gauss_seidel(benchmark::State& state, const ContactProblem& problem) {
 void active_set_random(benchmark::State& state) { active_set(state, random_problem(state.range(0))); }
 void gauss_seidel_random(benchmark::State& state) { gauss_seidel(state, random_problem(state.range(0))); }
 
+void lawson_hanson(benchmark::State& state, const ContactProblem& problem) {
+  ContactSolution solution;
+  for (auto _ : state) benchmark::DoNotOptimize(solution = solve_lawson_hanson(problem, {}));
+  state.counters["iterations"] = solution.iterations;
+}
+
+void active_set_tower(benchmark::State& state) { active_set(state, tower_problem(state.range(0))); }
+void lawson_hanson_tower(benchmark::State& state) { lawson_hanson(state, tower_problem(state.range(0))); }
+void active_set_dense(benchmark::State& state) { active_set(state, random_problem(state.range(0))); }
+void lawson_hanson_dense(benchmark::State& state) { lawson_hanson(state, random_problem(state.range(0))); }
+
+BENCHMARK(active_set_tower)->Arg(8)->Arg(32)->Arg(128)->Arg(256);
+BENCHMARK(lawson_hanson_tower)->Arg(8)->Arg(32)->Arg(128)->Unit(benchmark::kMicrosecond);
+BENCHMARK(active_set_dense)->Arg(64)->Arg(256);
+BENCHMARK(lawson_hanson_dense)->Arg(64);
 BENCHMARK(active_set_random)->Arg(1)->Arg(2)->Arg(4)->Arg(8)->Arg(16)->Arg(32);
 BENCHMARK(gauss_seidel_random)->Arg(1)->Arg(2)->Arg(4)->Arg(8)->Arg(16)->Arg(32);
 BENCHMARK_CAPTURE(active_set, slab, slab_problem());

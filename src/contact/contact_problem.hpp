@@ -13,7 +13,7 @@ struct ContactProblem {
 
 struct ContactOptions {
   double tolerance = 1e-12;     // of complementarity_error(); the active set also accepts what rounding of p leaves
-  int max_iterations = 100000;  // Gauss-Seidel sweeps, or active-set changes
+  int max_iterations = 100000;  // Gauss-Seidel sweeps, or changes of Lawson and Hanson's set
 };
 
 struct ContactSolution {
@@ -27,11 +27,19 @@ struct ContactSolution {
 // |min(p_a W_aa, (W p + rhs)_a)| over the largest |rhs| [-]; belongs to no solver. Same zero as residual (21).
 double complementarity_error(const ContactProblem& problem, const VectorX& impulse);
 
+// Error that rounding of the impulses alone makes: large where impulses are, as below a heavy mass on a light one.
+double rounding_error(const ContactProblem& problem, const VectorX& impulse);
+
 // Projected Gauss-Seidel as in the paper. Needs of the order of the mass ratio in sweeps.
 ContactSolution solve_gauss_seidel(const ContactProblem& problem, const ContactOptions& options, VectorX guess);
 
-// Exact to rounding: active-set method of Lawson and Hanson (1974, chapter 23) on the equivalent convex quadratic
-// program; accepts singular W.
-ContactSolution solve_active_set(const ContactProblem& problem, const ContactOptions& options);
+// Exact to rounding for symmetric W, singular or not; finite (theory.md, 210-211). Dual active-set method of Goldfarb and
+// Idnani (1983), Cholesky factors updated; large sets first by changing all wrong pairs at once from the pairs that
+// carry in `guess` (may be empty), which needs few factorizations. Unsymmetric W: Lawson and Hanson's method.
+ContactSolution solve_active_set(const ContactProblem& problem, const ContactOptions& options, const VectorX& guess = {});
+
+// The method of Lawson and Hanson (1974, chapter 23), with a decomposition for every change of the set; accepts an
+// unsymmetric W. Cycles on one redundant problem of some ten thousand.
+ContactSolution solve_lawson_hanson(const ContactProblem& problem, const ContactOptions& options);
 
 }  // namespace nsframe

@@ -81,7 +81,7 @@ void MoreauJean::update_velocity(const System& system, const VectorX& change, St
   }
   const ContactOptions contact_options{options_.contact_tolerance, options_.max_contact_sweeps};
   ContactSolution solution = options_.contact_solver == ContactSolverKind::active_set
-                                 ? solve_active_set(problem, contact_options)
+                                 ? solve_active_set(problem, contact_options, impulse_)
                                  : solve_gauss_seidel(problem, contact_options, impulse_);
   result.complementarity_error = solution.error;
   if (!solution.converged) {

@@ -1,10 +1,12 @@
-// Both contact solvers on stored and random problems.
+// The contact solvers on stored and random problems.
 #include <doctest/doctest.h>
 #include <rapidcheck.h>
 
 #include <cmath>
 #include <limits>
+#include <random>
 
+#include "contact/active_cholesky.hpp"
 #include "tests/contact/stored_problems.hpp"
 
 using namespace nsframe;
@@ -151,4 +153,112 @@ TEST_CASE("both solvers part the bodies with the same velocities where Gauss-Sei
     const VectorX difference = p.problem.delassus * (sweeps.impulse - exact.impulse);
     RC_ASSERT(difference.norm() < 1e-7 * p.problem.rhs.norm());
   }));
+}
+
+namespace {
+
+// The same kind of problem as random_problem(true), over `decades` of mass, without RapidCheck's cost.
+ContactProblem redundant_problem(std::mt19937_64& random, double decades) {
+  std::uniform_real_distribution<double> number(-1, 1);
+  const auto up_to = [&](int most) { return 1 + static_cast<int>(random() % static_cast<unsigned>(most)); };
+  const int bodies = up_to(7), contacts = bodies + up_to(5);
+  const VectorX m = VectorX::NullaryExpr(bodies, [&] { return std::pow(10, decades * 0.5 * (1 + number(random))); });
+  const VectorX v = VectorX::NullaryExpr(bodies, [&] { return number(random); });
+  MatrixX H = MatrixX::NullaryExpr(contacts, bodies, [&] { return number(random); });
+  for (int c = 0; c < contacts; ++c) H(c, c % bodies) += std::copysign(0.5, H(c, c % bodies));
+  const double e = 0.5 * (1 + number(random));
+  return {H * m.cwiseInverse().asDiagonal() * H.transpose(), (1 + e) * (H * v)};
+}
+
+// A row of n + 1 bodies with masses over `decades`, closing at random.
+ContactProblem row_problem(int n, double decades, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> number(-1, 1);
+  MatrixX H = MatrixX::Zero(n, n + 1);
+  for (int i = 0; i < n; ++i) {
+    H(i, i) = -1;
+    H(i, i + 1) = 1;
+  }
+  const VectorX m = VectorX::NullaryExpr(n + 1, [&] { return std::pow(10, decades * 0.5 * (1 + number(random))); });
+  const VectorX v = VectorX::NullaryExpr(n + 1, [&] { return number(random); });
+  return {H * m.cwiseInverse().asDiagonal() * H.transpose(), 1.5 * (H * v)};
+}
+
+}  // namespace
+
+TEST_CASE("of a hundred thousand redundant problems over six decades of mass every one is solved") {
+  std::mt19937_64 random(20210715);
+  int failed = 0;
+  for (int i = 0; i < 100000; ++i) failed += solve_active_set(redundant_problem(random, 6), {}).converged ? 0 : 1;
+  CHECK(failed == 0);
+}
+
+TEST_CASE("Lawson and Hanson's method finds the same gap rates on redundant problems where it ends") {
+  std::mt19937_64 random(7);
+  int ended = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const ContactProblem problem = redundant_problem(random, 2);
+    const ContactSolution simple = solve_lawson_hanson(problem, {}), found = solve_active_set(problem, {});
+    REQUIRE(found.converged);
+    if (!simple.converged) continue;
+    ++ended;
+    const double scale = problem.rhs.cwiseAbs().maxCoeff();
+    // errors of complementarity of both, magnified by how nearly rows of H depend: two random rows of twelve
+    const double allowed = 1e-12 + 1e3 * (rounding_error(problem, simple.impulse) + rounding_error(problem, found.impulse));
+    CHECK((problem.delassus * (simple.impulse - found.impulse)).cwiseAbs().maxCoeff() < allowed * scale);
+  }
+  CHECK(ended > 4900);
+}
+
+TEST_CASE("rows of up to 256 pairs are solved as by the simple method, from any guess, whatever the masses") {
+  std::mt19937_64 random(11);
+  for (const int n : {16, 40, 256}) {
+    for (const double decades : {0.0, 2.0, 10.0}) {
+      CAPTURE(n);
+      CAPTURE(decades);
+      const ContactProblem problem = row_problem(n, decades, random);
+      const ContactSolution found = solve_active_set(problem, {});
+      CHECK(found.converged);
+      CHECK(found.error <= std::max(1e-12, rounding_error(problem, found.impulse)));
+      CHECK(solve_active_set(problem, {}, found.impulse).converged);
+      CHECK(solve_active_set(problem, {}, VectorX::Ones(n)).error <= std::max(1e-12, rounding_error(problem, found.impulse)));
+      if (n > 40 || decades > 2) continue;
+      const ContactSolution simple = solve_lawson_hanson(problem, {});
+      REQUIRE(simple.converged);
+      // W of a row of equal masses has the condition number (2 n / pi)^2, the masses multiply it
+      const double condition = n * n * std::pow(10, decades);
+      CHECK((problem.delassus * (simple.impulse - found.impulse)).cwiseAbs().maxCoeff() <
+            condition * epsilon * problem.rhs.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
+TEST_CASE("four corners of a slab that hits flat carry alike") {
+  const ContactSolution solution = solve_active_set(dropped_slab().problem, {});
+  CHECK((solution.impulse.array() - solution.impulse.mean()).abs().maxCoeff() < 64 * epsilon * solution.impulse.sum());
+}
+
+TEST_CASE("no impulse opens a pair that is pressed from both sides: the solver says that it did not converge") {
+  // a mass between two walls that both ask it to leave
+  const ContactProblem squeezed{(MatrixX(2, 2) << 1, -1, -1, 1).finished(), VectorX::Constant(2, -1)};
+  CHECK_FALSE(solve_active_set(squeezed, {}).converged);
+}
+
+TEST_CASE("a Cholesky factor that pairs join and leave solves as one made anew") {
+  std::mt19937_64 random(3);
+  const ContactProblem problem = row_problem(12, 1, random);
+  ActiveCholesky factor(problem.delassus);
+  VectorX d;
+  for (const int pair : {3, 7, 0, 11, 5, 6}) factor.add(pair, factor.coefficients(pair, d));
+  for (const int place : {1, 0, 3}) {
+    factor.remove(place);
+    const auto& pairs = factor.pairs();
+    VectorX x = problem.rhs(pairs);
+    factor.solve(x);
+    // backward stable: residual of rounding
+    CHECK((problem.delassus(pairs, pairs) * x - problem.rhs(pairs)).norm() < 256 * epsilon * problem.delassus.norm() * x.norm());
+    const double left = factor.coefficients(9, d);
+    const MatrixX inverse = MatrixX(problem.delassus(pairs, pairs)).inverse();
+    const VectorX column = problem.delassus(pairs, std::vector<int>{9});
+    CHECK(left == doctest::Approx(problem.delassus(9, 9) - column.dot(inverse * column)).epsilon(1e4 * epsilon));
+  }
 }
