@@ -65,7 +65,7 @@ void print_solution(const LoadedScene& loaded, Simulation& simulation) {
   const std::vector<std::string> own = simulation.scheme().describe();
   const std::string name = simulation.scheme().name();
   if (!own.empty()) {
-    fmt::print("scheme {}: results every {:g} ms, {} steps to {:g} s\n", name, 1e3 * analysis.dt,
+    fmt::print("scheme {}: {} {:g} ms, {} steps to {:g} s\n", name, name == "exact" ? "results every" : "dt =", 1e3 * analysis.dt,
                std::lround(simulation.duration() / analysis.dt), simulation.duration());
     fmt::print("  chosen because: {}\n", simulation.scheme_reason());
     for (const std::string& line : own) fmt::print("  {}\n", line);

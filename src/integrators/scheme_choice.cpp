@@ -32,9 +32,7 @@ std::string reason_against_modes(const System& system, const State& start) {
   return {};
 }
 
-}  // namespace
-
-SchemeChoice choose_scheme(const AnalysisOptions& options, const System& system, const State& start) {
+SchemeChoice choose(const AnalysisOptions& options, const System& system, const State& start) {
   if (options.scheme != "auto") {
     return {make_scheme(options, system), options.scheme_reason.empty() ? "asked for" : options.scheme_reason};
   }
@@ -53,6 +51,18 @@ SchemeChoice choose_scheme(const AnalysisOptions& options, const System& system,
   against = fmt::format("not {}: {}", chosen.scheme, against);
   chosen.scheme = "moreau-jean";
   return {make_scheme(chosen, system), against};
+}
+
+}  // namespace
+
+SchemeChoice choose_scheme(const AnalysisOptions& options, const System& system, const State& start) {
+  SchemeChoice choice = choose(options, system, start);
+  if (options.accuracy > 0 && choice.scheme->name() == "moreau-jean") {  // exact has any accuracy
+    Diagnostics diagnostics;
+    diagnostics.error(options.scheme_at, fmt::format("analysis.accuracy needs scheme = \"exponential\", and this run takes moreau-jean ({})", choice.reason));
+    diagnostics.throw_if_any();
+  }
+  return choice;
 }
 
 }  // namespace nsframe

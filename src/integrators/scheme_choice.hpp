@@ -11,7 +11,7 @@ struct SchemeChoice {
 };
 
 // The scheme that the options name. "auto": `exact` for a linear scene and `exponential` for another where they can take it from
-// `start`, else `moreau-jean`.
+// `start`, else `moreau-jean`. Throws InputError where an accuracy is asked of Moreau-Jean.
 SchemeChoice choose_scheme(const AnalysisOptions& options, const System& system, const State& start);
 
 }  // namespace nsframe

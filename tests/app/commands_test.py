@@ -163,7 +163,11 @@ class Commands(unittest.TestCase):
         self.assertIn("scheme moreau-jean: theta = 1", text)
         self.assertIn("analysis.newton_tolerance is an option of this scheme alone", text)
         bare = STUBBORN.replace("max_newton = 1\n", "").replace("newton_tolerance = 1e-12\n", "").replace("max_halvings = 0\n", "")
-        self.assertIn("chosen because: not exact: element 's.k' (spring) is nonlinear", self.nsframe("check", self.scene(bare)).stdout)
+        text = self.nsframe("check", self.scene(bare)).stdout
+        self.assertIn("scheme exponential: dt = 1 ms, 200 steps to 0.2 s", text)
+        self.assertIn("chosen because: element 's.k' (spring) is nonlinear", text)
+        done = self.nsframe("run", self.scene(STUBBORN), "-o", "no", "--set", "analysis.accuracy=1e-3", code=2)
+        self.assertIn("analysis.accuracy needs scheme = \"exponential\", and this run takes moreau-jean", done.stderr)
         done = self.nsframe("run", self.scene(bare.replace('dt = "1 ms"', 'scheme = "exact"')), "-o", "no", code=2)
         self.assertRegex(done.stderr, r"s\.toml:\d+:10: error: scheme 'exact' is for linear scenes, and element 's\.k' \(spring\) is nonlinear")
 
