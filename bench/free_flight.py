@@ -9,7 +9,7 @@ import argparse
 import sys
 
 from harness import BenchError, Nsframe, arguments, machine, number, opensees_python, progress, table, write
-from pair import CASES, Opensees, largest_difference, run_nsframe
+from pair import CASES, Opensees, largest_difference, moreau_jean, run_nsframe
 
 INTERVAL = 0.01                                                           # [s]
 DURATION = {"elastic": 6.0, "displacement-based": 3.0, "force-based": 3.0}  # [s]
@@ -35,8 +35,8 @@ def main():
         previous = None
         for dt in options.steps:
             progress("%s, dt = %g s" % (columns, dt))
-            summary, _, time, roof = run_nsframe(nsframe, columns, dt, duration, 0.5, contact=False, history=INTERVAL,
-                                                 extra=[("analysis.newton_tolerance", 1e-12)])
+            summary, _, time, roof = run_nsframe(nsframe, columns, dt, duration,
+                                                 {**moreau_jean(0.5), "analysis.newton_tolerance": 1e-12}, contact=False, history=INTERVAL)
             differences = []
             for tolerance in TOLERANCES:
                 data, _ = opensees.run(columns, dt, duration, ["--free-flight", "--history", INTERVAL,

@@ -49,11 +49,14 @@ class Opensees:
         return data, usage
 
 
-def run_nsframe(nsframe, columns, dt, duration, theta, gamma=1.5, contact=True, history=0, extra=()):
-    """Summary, usage, times and the roof corners' displacement in x [m]; no gravity, as in OpenSees."""
+def moreau_jean(theta, gamma=1.5):
+    return {"analysis.scheme": "moreau-jean", "analysis.theta": theta, "analysis.gamma": gamma}
+
+
+def run_nsframe(nsframe, columns, dt, duration, scheme, contact=True, history=0):
+    """Summary, usage, times and the roof corners' displacement in x [m]; no gravity, as in OpenSees. `scheme`: its settings."""
     example, settings = CASES[columns]
-    settings = {**settings, "gravity.acceleration": 0, "analysis.dt": repr(dt), "analysis.duration": repr(duration),
-                "analysis.theta": theta, "analysis.gamma": gamma, **dict(extra)}
+    settings = {**settings, "gravity.acceleration": 0, "analysis.dt": repr(dt), "analysis.duration": repr(duration), **scheme}
     if not contact:
         settings.update(NO_CONTACT)
     summary, usage, time, nodes = nsframe.run(example, settings, ROOF_NODES if history else (),

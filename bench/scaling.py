@@ -10,7 +10,7 @@ import argparse
 
 from harness import (Nsframe, arguments, machine, number, peer_arguments, peer_python, progress, run_bench, step_microseconds, table,
                      write_compared)
-from pair import Opensees, run_nsframe
+from pair import Opensees, moreau_jean, run_nsframe
 
 TITLES = {"elastic": "Elastic columns", "displacement-based": "Fiber columns, Steel02, displacement-based"}
 STORIES = (2, 8, 32, 128)
@@ -46,7 +46,7 @@ def nsframe_row(nsframe, columns, stories, quick):
     progress("%s, %d stories: nsframe" % (columns, stories))
     times = []
     for _ in range(1 if quick else RUNS):
-        summary, usage, _, _ = run_nsframe(nsframe, columns, DT, steps * DT, 1.0, 1.5, extra=settings(stories))
+        summary, usage, _, _ = run_nsframe(nsframe, columns, DT, steps * DT, {**moreau_jean(1.0), **settings(stories)})
         times.append(step_microseconds(summary))
     return dict(program="nsframe", stories=stories, dofs=summary["dofs"], steps=steps, step_us=min(times), step_us_all=times,
                 setup_s=summary["timing"]["setup"], memory_mb=usage["memory_mb"], impacts=len(summary["impacts"]),

@@ -10,15 +10,19 @@ import argparse
 import references
 from harness import (Nsframe, arguments, machine, number, peer_arguments, peer_python, progress, run_bench, step_microseconds, table,
                      write_compared)
-from pair import CASES, ROOF_NODES, Opensees, largest_difference, run_nsframe
+from pair import CASES, ROOF_NODES, Opensees, largest_difference, moreau_jean, run_nsframe
 
 TITLES = {"elastic": "Elastic columns", "displacement-based": "Fiber columns, Steel02, displacement-based",
           "force-based": "Fiber columns, Steel02, force-based"}
 DURATION = {"elastic": 20.0, "displacement-based": 6.0, "force-based": 6.0}  # [s] of motion for speed and peaks
-# theta, gamma, dt [s], runs; the first is the setting of the paper
-NSFRAME = {"elastic": [(1.0, 1.5, 1e-3, 7), (0.5, 0.5, 1e-3, 7), (0.5, 0.5, 1e-4, 3), (0.5, 0.5, 1e-5, 1)],
-           "displacement-based": [(1.0, 1.5, 1e-3, 3), (0.5, 0.5, 1e-3, 3), (0.5, 0.5, 1e-4, 1)],
-           "force-based": [(1.0, 1.5, 1e-3, 3), (0.5, 0.5, 1e-3, 3), (0.5, 0.5, 1e-4, 1)]}
+PAPER, HALF = ("theta = 1, gamma = 1.5", moreau_jean(1.0)), ("theta = 0.5, gamma = 0.5", moreau_jean(0.5, 0.5))
+EXACT, EXPONENTIAL = ("exact", {"analysis.scheme": "exact"}), ("exponential", {"analysis.scheme": "exponential"})
+ACCURATE = ("exponential, accuracy 1e-3", {"analysis.scheme": "exponential", "analysis.accuracy": 1e-3})
+FIBER = [(PAPER, 1e-3, 3), (HALF, 1e-3, 3), (HALF, 1e-4, 1), (EXPONENTIAL, 5e-3, 3), (EXPONENTIAL, 1e-3, 3), (EXPONENTIAL, 1e-4, 1),
+         (ACCURATE, 1e-3, 1)]
+# setting, dt [s], runs; the first is the setting of the paper
+NSFRAME = {"elastic": [(PAPER, 1e-3, 7), (HALF, 1e-3, 7), (HALF, 1e-4, 3), (HALF, 1e-5, 1), (EXACT, 1e-3, 7), (EXACT, 5e-3, 7)],
+           "displacement-based": FIBER, "force-based": FIBER}
 # penalty [N/m], dt [s], runs, duration [s] or None for that of the case; the first is the fastest
 OPENSEES = {"elastic": [(1e8, 1e-3, 3, None), (1e9, 1e-4, 1, 6.0)], "displacement-based": [(1e8, 1e-3, 2, None)],
             "force-based": [(1e8, 1e-3, 2, None)]}
@@ -26,15 +30,15 @@ QUICK = 0.05  # [s]
 
 
 def nsframe_row(nsframe, columns, reference, setting, duration):
-    theta, gamma, dt, runs = setting
-    progress("%s: nsframe, theta = %g, gamma = %g, dt = %g s" % (columns, theta, gamma, dt))
+    (name, scheme), dt, runs = setting
+    progress("%s: nsframe, %s, dt = %g s" % (columns, name, dt))
     window = reference[1][-1]
     # Wall time of the step loop, or CPU time of the process less that of a run of one step (it includes the peaks and the
     # writing of histories): where other programs take the cores, the second is the closer one.
     times = []
-    _, setup, _, _ = run_nsframe(nsframe, columns, dt, dt, theta, gamma)
+    _, setup, _, _ = run_nsframe(nsframe, columns, dt, dt, scheme)
     for run in range(runs):
-        summary, usage, time, roof = run_nsframe(nsframe, columns, dt, duration, theta, gamma,
+        summary, usage, time, roof = run_nsframe(nsframe, columns, dt, duration, scheme,
                                                  history=references.INTERVAL if run == 0 else 0)
         cpu = 1e6 * (usage["cpu_s"] - setup["cpu_s"]) / max(1, summary["steps"] - 1)
         wall = step_microseconds(summary)
@@ -42,7 +46,7 @@ def nsframe_row(nsframe, columns, reference, setting, duration):
         if run == 0:
             error = compare(reference, time, roof, min(window, duration))
     peaks = {peak["node"]: abs(peak["displacement"][0]) for peak in summary["peaks"]}
-    return dict(program="nsframe", setting="theta = %g, gamma = %g" % (theta, gamma), dt=dt, runs=runs, duration=duration,
+    return dict(program="nsframe", setting=name, dt=dt, runs=runs, duration=duration,
                 step_us=min(times), step_us_all=times, memory_mb=usage["memory_mb"], error_m=error,
                 peaks_m=[peaks[node] for node in ROOF_NODES], poundings=len(summary["poundings"]),
                 iterations=summary["newton_iterations"] / summary["steps"])
@@ -85,8 +89,8 @@ def text_of(columns, reference, rows):
     head = ["", "dt, ms", "µs a step", "OpenSees / it", "ms a second of motion", "largest error, mm", "roof peaks, mm",
             "over, s", "memory, MB"]
     known = reference[0]
-    return "## %s\n\nReference: theta = %g, gamma = %g, dt = %g s over %g s; twice the step differs by %s mm.\n\n%s" % (
-        TITLES[columns], known["theta"], known["gamma"], known["dt"], reference[1][-1],
+    return "## %s\n\nReference: %s, dt = %g s over %g s; twice the step differs by %s mm.\n\n%s" % (
+        TITLES[columns], known["scheme"], known["dt"], reference[1][-1],
         millimetres(known["own_error_m"]), table(head, lines))
 
 
