@@ -5,25 +5,17 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/decompositions.hpp"
 #include "base/errors.hpp"
 
 namespace nsframe {
 
 namespace {
 
-constexpr int most_levels = 20;          // parts of a step down to dt / 2^20
-constexpr double fastest_growth = 1;     // [1/s], of any mode while all nonlinear elements yield
-constexpr double samples = 4;            // of a period of the fastest mode, with `accuracy`
 constexpr int most_follow_ups = 40;      // evaluations until what has no mass rests
 constexpr double follow_up = 0.1;        // part of its motion over a step that may be left to the next one
 constexpr double largest_rest = 1e-4;    // of the largest displacement, that may be left
-constexpr double at_rest = 1e-8;         // of it, that counts as none
 constexpr double slow_following = 0.3;   // memory from which a tangent is worth its factorization
 constexpr double forgetting = 0.02;      // of what `memory_` lacks to 1, a step: it is measured again and again
-// Shares of accuracy x peak: what is allowed to go wrong in a second, and in the force of one part (theory.md, 235).
-constexpr double error_rate = 0.1, force_error = 0.1;
-constexpr double guard = 0.02;           // part of the peak, without `accuracy`
 
 SparseMatrix symmetric_part(const SparseMatrix& matrix) { return 0.5 * (matrix + SparseMatrix(matrix.transpose())); }
 
@@ -36,21 +28,6 @@ const System& accepted(const System& system) {
 }
 
 }  // namespace
-
-double exponential_radius(double angle, double share, double kept) {
-  const double square = angle * angle;
-  const StepCoefficients c = step_coefficients(square, 0, 1);
-  const auto A = static_cast<double>(c.A), B = static_cast<double>(c.B), L = static_cast<double>(c.L), R = static_cast<double>(c.R);
-  const double change = (kept - 1) * share * square;  // r = change * x
-  Eigen::Matrix4d step;                                // of x, x', r, rate of r, in steps
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector4d from = Eigen::Vector4d::Unit(i);
-    const double x = A * from[0] + B * from[1] - L * from[2], y = -square * B * from[0] + A * from[1] - B * from[2];
-    const double r = change * (x - R * from[3]), rate = r - from[2];
-    step.col(i) << x - R * rate, y - L * rate, r, rate;
-  }
-  return Eigen::EigenSolver<MatrixX>(MatrixX(step), false).eigenvalues().cwiseAbs().maxCoeff();
-}
 
 Exponential::Exponential(const AnalysisOptions& options, const System& system)
     : options_(options), flow_(options, exact_modes(accepted(system), symmetric_part(system.initial_stiffness))),
@@ -73,37 +50,6 @@ Exponential::Exponential(const AnalysisOptions& options, const System& system)
   }
   find_steps(system);
   padded_.setZero();
-}
-
-void Exponential::find_steps(const System& system) {
-  const ExactModes& modes = flow_.modes();
-  mode_size_ = mode_share_ = VectorX::Zero(modes.padded);
-  VectorX unit = mode_size_, linear(modes.dofs);
-  double fastest = 0;
-  for (int k = 0; k < modes.dofs; ++k) {
-    unit[k] = 1;
-    modes.shape.multiply(unit, padded_);
-    unit[k] = 0;
-    const VectorX shape = padded_.head(modes.dofs);
-    mode_size_[k] = shape.cwiseAbs().maxCoeff();
-    if (mode_size_[k] == 0 || modes.square[k] == 0) continue;
-    system.assembler.linear_force(shape, linear);
-    mode_share_[k] = std::clamp(1 - shape.dot(linear) / modes.square[k], 0.0, 1.0);
-    fastest = std::max(fastest, std::sqrt(modes.square[k]));
-    const auto grows = [&](double s) {
-      for (const double kept : {0.01, 0.25, 0.5, 0.75}) {
-        if (std::log(exponential_radius(std::sqrt(modes.square[k]) * s, mode_share_[k], kept)) > fastest_growth * s) return true;
-      }
-      return false;
-    };
-    while (least_level_ < most_levels && grows(std::ldexp(options_.dt, -least_level_))) {
-      ++least_level_;
-      unstable_ = std::sqrt(modes.square[k]);
-    }
-  }
-  active_level_ = least_level_;
-  while (options_.accuracy > 0 && active_level_ < most_levels && std::ldexp(options_.dt, -active_level_) * fastest * samples > 2 * pi) ++active_level_;
-  level_ = least_level_;
 }
 
 void Exponential::project(Residual& r) {
@@ -145,7 +91,7 @@ void Exponential::evaluate(System& system, const VectorX& massless, const Vector
     const double change = follow_.cwiseAbs().maxCoeff();
     if (i > 0 && last_change > 0 && !tangent) memory_ = std::min(1.0, change / last_change);
     const double motion = (next_.massless - now_.massless).cwiseAbs().maxCoeff(), size = std::max(peak_, scale_);
-    if (memory_ * change <= std::min(follow_up * motion, largest_rest * size) || change <= at_rest * size) {
+    if (memory_ * change <= std::min(follow_up * motion, largest_rest * size) || change <= exponential_rest * size) {
       if (i == 0) memory_ += forgetting * (1 - memory_);
       return;
     }
@@ -154,21 +100,6 @@ void Exponential::evaluate(System& system, const VectorX& massless, const Vector
     last_change = change;
   }
   throw ConvergenceError("what has no mass does not come to rest: give it mass, or use scheme = \"moreau-jean\"");
-}
-
-double Exponential::error_ratio(const VectorX& unexpected, double s) {
-  const ExactModes& modes = flow_.modes();
-  double moved = 0, held = 0;  // by the wrong impulse of this part; by a wrong force that stays [m]
-  for (int k = 0; k < modes.dofs; ++k) {
-    const double force = mode_size_[k] * std::abs(unexpected[k]), square = std::max(modes.square[k], 1.0);
-    moved += force * std::min(0.5 * s, 2 / (square * s)) / std::sqrt(square);
-    held += force / square;
-  }
-  const double size = std::max(peak_, scale_);
-  if (size == 0) return 0;
-  active_ = active_ || held > at_rest * size;
-  if (options_.accuracy == 0) return moved / (guard * size);
-  return std::max(moved / (error_rate * s), held / force_error) / (options_.accuracy * size);
 }
 
 void Exponential::start(System& system, const State& committed) {
@@ -207,7 +138,7 @@ bool Exponential::advance(System& system, double time, double s, bool starting, 
   evaluate(system, now_.massless + s * massless_rate_, committed, trial);
   flow_.go_back(before_);
   const double error = error_ratio(next_.modal - now_.modal - s * modal_rate_, s);
-  if (error > 1 && level_ < most_levels) {
+  if (error > 1 && level_ < exponential_levels) {
     ++level_;
     return false;
   }
@@ -250,8 +181,8 @@ void Exponential::step(System& system, const State& committed, State& trial, dou
 }
 
 void Exponential::make_parts(System& system, const State& committed, State& trial, double h, bool fresh, StepResult& result) {
-  // parts of h / 2^level, in units of h / 2^most_levels
-  constexpr long whole = 1L << most_levels;
+  // parts of h / 2^level, in units of h / 2^exponential_levels
+  constexpr long whole = 1L << exponential_levels;
   const VectorX* from = &committed.history;
   VectorX *to = &trial.history, *other = &history_;
   for (long done = 0; done < whole;) {

@@ -7,6 +7,9 @@
 
 namespace nsframe {
 
+inline constexpr int exponential_levels = 20;      // parts of a step down to dt / 2^20
+inline constexpr double exponential_rest = 1e-8;   // of the largest displacement, that counts as none
+
 class Exponential : public Scheme {
  public:
   // Throws InputError for what it cannot take: rate-dependent elements, damping that follows the tangent or couples modes, contact

@@ -1,0 +1,81 @@
+// How long the parts of a step of the scheme `exponential` are: by stability, and by the error of the expected residual (theory.md, 234-236).
+#include <algorithm>
+#include <cmath>
+
+#include "base/decompositions.hpp"
+#include "integrators/exponential.hpp"
+
+namespace nsframe {
+
+namespace {
+
+constexpr double fastest_growth = 1;     // [1/s], of any mode while all nonlinear elements yield
+constexpr double samples = 4;            // of a period of the fastest mode, with `accuracy`
+// Shares of accuracy x peak: what is allowed to go wrong in a second, and in the force of one part (theory.md, 235).
+constexpr double error_rate = 0.1, force_error = 0.1;
+constexpr double guard = 0.02;           // part of the peak, without `accuracy`
+
+}  // namespace
+
+double exponential_radius(double angle, double share, double kept) {
+  const double square = angle * angle;
+  const StepCoefficients c = step_coefficients(square, 0, 1);
+  const auto A = static_cast<double>(c.A), B = static_cast<double>(c.B), L = static_cast<double>(c.L), R = static_cast<double>(c.R);
+  const double change = (kept - 1) * share * square;  // r = change * x
+  Eigen::Matrix4d step;                                // of x, x', r, rate of r, in steps
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector4d from = Eigen::Vector4d::Unit(i);
+    const double x = A * from[0] + B * from[1] - L * from[2], y = -square * B * from[0] + A * from[1] - B * from[2];
+    const double r = change * (x - R * from[3]), rate = r - from[2];
+    step.col(i) << x - R * rate, y - L * rate, r, rate;
+  }
+  return Eigen::EigenSolver<MatrixX>(MatrixX(step), false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+void Exponential::find_steps(const System& system) {
+  const ExactModes& modes = flow_.modes();
+  mode_size_ = mode_share_ = VectorX::Zero(modes.padded);
+  VectorX unit = mode_size_, linear(modes.dofs);
+  double fastest = 0;
+  for (int k = 0; k < modes.dofs; ++k) {
+    unit[k] = 1;
+    modes.shape.multiply(unit, padded_);
+    unit[k] = 0;
+    const VectorX shape = padded_.head(modes.dofs);
+    mode_size_[k] = shape.cwiseAbs().maxCoeff();
+    if (mode_size_[k] == 0 || modes.square[k] == 0) continue;
+    system.assembler.linear_force(shape, linear);
+    mode_share_[k] = std::clamp(1 - shape.dot(linear) / modes.square[k], 0.0, 1.0);
+    fastest = std::max(fastest, std::sqrt(modes.square[k]));
+    const auto grows = [&](double s) {
+      for (const double kept : {0.01, 0.25, 0.5, 0.75}) {
+        if (std::log(exponential_radius(std::sqrt(modes.square[k]) * s, mode_share_[k], kept)) > fastest_growth * s) return true;
+      }
+      return false;
+    };
+    while (least_level_ < exponential_levels && grows(std::ldexp(options_.dt, -least_level_))) {
+      ++least_level_;
+      unstable_ = std::sqrt(modes.square[k]);
+    }
+  }
+  active_level_ = least_level_;
+  while (options_.accuracy > 0 && active_level_ < exponential_levels && std::ldexp(options_.dt, -active_level_) * fastest * samples > 2 * pi) ++active_level_;
+  level_ = least_level_;
+}
+
+double Exponential::error_ratio(const VectorX& unexpected, double s) {
+  const ExactModes& modes = flow_.modes();
+  double moved = 0, held = 0;  // by the wrong impulse of this part; by a wrong force that stays [m]
+  for (int k = 0; k < modes.dofs; ++k) {
+    const double force = mode_size_[k] * std::abs(unexpected[k]), square = std::max(modes.square[k], 1.0);
+    moved += force * std::min(0.5 * s, 2 / (square * s)) / std::sqrt(square);
+    held += force / square;
+  }
+  const double size = std::max(peak_, scale_);
+  if (size == 0) return 0;
+  active_ = active_ || held > exponential_rest * size;
+  if (options_.accuracy == 0) return moved / (guard * size);
+  return std::max(moved / (error_rate * s), held / force_error) / (options_.accuracy * size);
+}
+
+}  // namespace nsframe
