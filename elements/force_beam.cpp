@@ -39,12 +39,12 @@ ForceInterpolation interpolation(double x) { return {{0, 1, 1, 2, 2, 5}, {1, x -
 // Component of the shear force, dM/dx, by basic force; none of the axial force and torsion.
 constexpr std::array<int, 6> shear_component{-1, 3, 3, 4, 4, -1};
 
-constexpr int max_inner_iterations = 60;
+constexpr int max_section_iterations = 60;
 constexpr int max_line_search = 30;
 // Section forces out of balance relative to their change over the step (the last linear correction then leaves an
 // error of about the square), and relative to the forces themselves (rounding).
 constexpr double change_tolerance = 1e-4;
-constexpr double force_tolerance = 1e-11;
+constexpr double section_tolerance = 1e-11;
 constexpr double least_stiffness = 1e-10;  // of the elastic one, of a section all of whose fibers flow
 
 // Inverse of the tangent of a section's fibers. A section that flows as a whole has none: its deformation follows from the other
@@ -266,11 +266,11 @@ void ForceBeamsOf<n>::find_sections(int element, const Basic& deformation, doubl
       }
     }
     const Eigen::Array2d accepted = (change_tolerance * change_tolerance * change)
-                                        .max(force_tolerance * force_tolerance * scale)
+                                        .max(section_tolerance * section_tolerance * scale)
                                         .max(rounding * rounding * head.tangent.trace());
     if (iteration > 0 && (unbalances <= accepted).all()) return;
     const double unbalance = unbalances.sum();
-    if (!std::isfinite(unbalance) || iteration >= max_inner_iterations) {
+    if (!std::isfinite(unbalance) || iteration >= max_section_iterations) {
       throw ConvergenceError(fmt::format("force-based element '{}' does not find its section forces", id(element)));
     }
     double slope = move_sections(e, start, correction, 1.0, part, committed, trial);

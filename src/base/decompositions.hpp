@@ -4,6 +4,12 @@
 
 #include "base/types.hpp"
 
+namespace nsframe {
+
+constexpr int dense_eigen_limit = 300;  // rows up to which all eigenvalues are found at once
+
+}  // namespace nsframe
+
 namespace Eigen {
 
 extern template void SparseLU<nsframe::SparseMatrix>::analyzePattern(const nsframe::SparseMatrix&);

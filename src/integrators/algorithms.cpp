@@ -13,7 +13,7 @@ namespace nsframe {
 
 namespace {
 
-const std::map<std::string, std::function<std::unique_ptr<Algorithm>()>>& registry() {
+const std::map<std::string, std::function<std::unique_ptr<Algorithm>()>>& algorithms() {
   static const std::map<std::string, std::function<std::unique_ptr<Algorithm>()>> algorithms{
       {"newton", make_newton},
       {"modified", [] { return make_modified_newton(Tangent::current); }},
@@ -30,7 +30,7 @@ const std::map<std::string, std::function<std::unique_ptr<Algorithm>()>>& regist
 
 std::vector<std::string> algorithm_names() {
   std::vector<std::string> names;
-  for (const auto& entry : registry()) names.push_back(entry.first);
+  for (const auto& entry : algorithms()) names.push_back(entry.first);
   return names;
 }
 
@@ -41,8 +41,8 @@ std::vector<std::string> algorithm_choices() {
 }
 
 std::unique_ptr<Algorithm> make_algorithm(const std::string& name) {
-  const auto found = registry().find(name);
-  if (found == registry().end()) {
+  const auto found = algorithms().find(name);
+  if (found == algorithms().end()) {
     throw InputError(fmt::format("error: algorithm '{}' is not known{}", name, did_you_mean(name, algorithm_names())));
   }
   return found->second();

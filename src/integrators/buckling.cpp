@@ -12,7 +12,6 @@ namespace nsframe {
 
 namespace {
 
-constexpr int dense_limit = 300;          // free DOFs up to which all eigenvalues are found at once
 constexpr double relative_change = 1e-4;  // of the displacements for the derivative, to the size of the model
 constexpr double least_share = 1e-7;      // of the largest 1 / load factor, below which one is rounding
 
@@ -50,7 +49,7 @@ struct Pairs {
 
 Pairs eigenpairs(const SparseMatrix& K, const SparseMatrix& geometric, const Eigen::SparseLU<SparseMatrix>& factor, int count) {
   const int n = static_cast<int>(K.rows());
-  if (n <= dense_limit) {
+  if (n <= dense_eigen_limit) {
     const MatrixX A = -factor.solve(MatrixX(geometric));
     const Eigen::EigenSolver<MatrixX> solver(A);
     if (solver.info() != Eigen::Success) throw ConvergenceError("the eigenvalues of buckling did not converge");
@@ -71,7 +70,7 @@ void require_stability(const SparseMatrix& K, bool symmetric) {
   if (symmetric) {
     const Eigen::SimplicialLDLT<SparseMatrix> factor(K);
     stable = factor.info() == Eigen::Success && factor.vectorD().minCoeff() > 0;
-  } else if (K.rows() <= dense_limit) {
+  } else if (K.rows() <= dense_eigen_limit) {
     stable = MatrixX(K).eigenvalues().real().minCoeff() > 0;
   }
   if (!stable) throw ConvergenceError("the structure is not stable under the constant loads: there is no load factor to add");

@@ -15,7 +15,7 @@ namespace {
 
 using Factory = std::function<std::unique_ptr<Scheme>(const AnalysisOptions&, const System&)>;
 
-const std::map<std::string, Factory>& registry() {
+const std::map<std::string, Factory>& factories() {
   static const std::map<std::string, Factory> schemes{
       {"exact", [](const AnalysisOptions& options, const System& system) { return std::make_unique<Exact>(options, system); }},
       {"exponential", [](const AnalysisOptions& options, const System& system) { return std::make_unique<Exponential>(options, system); }},
@@ -28,13 +28,13 @@ const std::map<std::string, Factory>& registry() {
 
 std::vector<std::string> scheme_names() {
   std::vector<std::string> names{"auto"};
-  for (const auto& entry : registry()) names.push_back(entry.first);
+  for (const auto& entry : factories()) names.push_back(entry.first);
   return names;
 }
 
 std::unique_ptr<Scheme> make_scheme(const AnalysisOptions& options, const System& system) {
-  const auto found = registry().find(options.scheme);
-  if (found == registry().end()) {
+  const auto found = factories().find(options.scheme);
+  if (found == factories().end()) {
     throw InputError(fmt::format("error: scheme '{}' is not known{}", options.scheme, did_you_mean(options.scheme, scheme_names())));
   }
   return found->second(options, system);

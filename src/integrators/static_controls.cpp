@@ -18,7 +18,7 @@ struct ControlKind {
   bool needs_node, one_target;
 };
 
-const std::map<std::string, ControlKind>& registry() {
+const std::map<std::string, ControlKind>& control_kinds() {
   static const std::map<std::string, ControlKind> controls{
       {"load", {make_load_control, false, false}},
       {"displacement", {make_displacement_control, true, false}},
@@ -31,18 +31,18 @@ const std::map<std::string, ControlKind>& registry() {
 
 std::vector<std::string> control_names() {
   std::vector<std::string> names;
-  for (const auto& entry : registry()) names.push_back(entry.first);
+  for (const auto& entry : control_kinds()) names.push_back(entry.first);
   return names;
 }
 
 std::unique_ptr<StaticControl> make_control(const ControlSetup& setup) {
-  return registry().at(setup.stage.options.control).make(setup);
+  return control_kinds().at(setup.stage.options.control).make(setup);
 }
 
 void check_stages(const std::vector<StaticStage>& stages, Diagnostics& diagnostics) {
   for (const StaticStage& stage : stages) {
-    const auto found = registry().find(stage.options.control);
-    if (found == registry().end()) {
+    const auto found = control_kinds().find(stage.options.control);
+    if (found == control_kinds().end()) {
       diagnostics.error(stage.options.control_at, fmt::format("control '{}' is not known{}", stage.options.control,
                                               did_you_mean(stage.options.control, control_names())));
       continue;

@@ -9,12 +9,12 @@ namespace nsframe {
 
 namespace {
 
-constexpr int dense_limit = 160;  // free DOFs up to which the bordered matrix is dense
+constexpr int dense_border_limit = 160;  // free DOFs up to which the bordered matrix is dense
 
 }  // namespace
 
 StaticStep::StaticStep(System& system, const VectorX& dead, const VectorX& pattern, double factor_scale)
-    : system_(system), dead_(dead), pattern_(pattern), factor_scale_(factor_scale), dense_(pattern.size() <= dense_limit) {}
+    : system_(system), dead_(dead), pattern_(pattern), factor_scale_(factor_scale), dense_(pattern.size() <= dense_border_limit) {}
 
 void StaticStep::prepare(const StaticPoint& committed, ConstraintFunction constraint, const VectorX& change,
                          double factor_change, const StaticTolerance& tolerance) {

@@ -14,7 +14,6 @@ namespace nsframe {
 
 namespace {
 
-constexpr int dense_limit = 300;
 
 // A shift s that makes K + s M positive definite without hiding the lowest modes: 0 when K is definite by itself.
 double definite_shift(const SparseMatrix& stiffness, const SparseMatrix& mass) {
@@ -118,7 +117,7 @@ Modes solve_modes_sparse(const SparseMatrix& stiffness, const SparseMatrix& mass
 }
 
 Modes solve_modes(const SparseMatrix& stiffness, const SparseMatrix& mass, int count) {
-  const bool small = stiffness.rows() <= dense_limit || 3 * count > stiffness.rows();
+  const bool small = stiffness.rows() <= dense_eigen_limit || 3 * count > stiffness.rows();
   return small ? solve_modes_dense(stiffness, mass, count) : solve_modes_sparse(stiffness, mass, count);
 }
 

@@ -9,6 +9,11 @@
 #include "output/files.hpp"
 
 namespace nsframe {
+std::string pair_name(const Summary& summary, int pair) {
+  const auto i = static_cast<std::size_t>(pair);
+  return pair >= 0 && i < summary.pairs.size() ? summary.pairs[i] : fmt::format("pair {}", pair);
+}
+
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -16,11 +21,6 @@ using Json = nlohmann::ordered_json;
 constexpr double undamped = 1e-9;  // damping ratios below are rounding
 
 Json to_json(const Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
-
-std::string pair_name(const Summary& summary, int pair) {
-  const auto i = static_cast<std::size_t>(pair);
-  return pair >= 0 && i < summary.pairs.size() ? summary.pairs[i] : fmt::format("pair {}", pair);
-}
 
 Json impacts_json(const Summary& summary) {
   Json list = Json::array();

@@ -18,6 +18,9 @@ std::string summary_json(const Summary& summary);
 // Tables of at most 100 columns.
 std::string summary_text(const Summary& summary);
 
+// Name of a contact pair.
+std::string pair_name(const Summary& summary, int pair);
+
 // Modes whose damping the scene sets, or with more than 5 % of the mass in one direction below 30 Hz; all when there
 // are none.
 std::vector<ModeNumerics> modes_that_matter(const Summary& summary);

@@ -64,11 +64,6 @@ double rounded_off(double value, double scale) { return std::abs(value) <= scale
 
 std::string structure_of(const std::string& node) { return node.substr(0, node.rfind('.')); }
 
-std::string pair_name(const Summary& summary, int pair) {
-  const auto i = static_cast<std::size_t>(pair);
-  return pair >= 0 && i < summary.pairs.size() ? summary.pairs[i] : fmt::format("pair {}", pair);
-}
-
 bool static_only(const Summary& summary) { return summary.steps == 0 && !summary.stages.empty(); }
 
 void put_head(Buffer& out, const Summary& summary) {

@@ -4,21 +4,11 @@
 
 #include <optional>
 
+#include "scene/writer.hpp"
+
 namespace nsframe {
 
 namespace {
-
-std::string quoted(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < 0x20)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      out += c;
-  }
-  return out + '"';
-}
 
 std::vector<std::string> keys(const toml::table& table) {
   std::vector<std::string> out;
@@ -32,7 +22,7 @@ class Override {
       : place_{"--set " + key, 0, 0}, diagnostics_(diagnostics) {
     text_ = key + " = " + value;
     // A line end would start a second key.
-    if (value.find_first_of("\n\r") != std::string::npos || !parse()) text_ = key + " = " + quoted(value);
+    if (value.find_first_of("\n\r") != std::string::npos || !parse()) text_ = key + " = " + toml_text(value);
     auto table = key.find_first_of("\n\r=") == std::string::npos ? parse() : std::nullopt;
     for (toml::table* branch = table ? &*table : nullptr; branch && branch->size() == 1 && !branch->is_inline();) {
       path_.emplace_back(branch->begin()->first.str());

@@ -3,18 +3,16 @@
 #include <rapidcheck.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "contact/active_cholesky.hpp"
 #include "tests/contact/stored_problems.hpp"
+#include "tests/support/numbers.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // H with entries in [-1, 1], masses over six decades; with `redundant`, more contacts than bodies, so that W is singular,
 // and masses over three.

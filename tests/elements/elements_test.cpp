@@ -16,11 +16,11 @@ using namespace nsframe;
 namespace {
 
 const Vector3 end_i(0.2, -0.1, 0.3), end_j(1.1, 0.9, 2.4);
-const Steel02 steel{235e6, 210e9, 0.01};
+const Steel02 bilinear_steel{235e6, 210e9, 0.01};
 
 BeamFrame skew_frame() { return {end_i, end_j, beam_axes(end_i, end_j, Vector3(0.3, 1, 0.1))}; }
 
-std::shared_ptr<const FiberSection> rectangle(const UniaxialLaw& law) {
+std::shared_ptr<const FiberSection> five_by_seven(const UniaxialLaw& law) {
   std::vector<Fiber> fibers;
   for (int i = 0; i < 7; ++i) {
     for (int j = 0; j < 5; ++j) fibers.push_back({0.02 * (i - 3), 0.015 * (j - 2), 3e-4, law});
@@ -28,22 +28,22 @@ std::shared_ptr<const FiberSection> rectangle(const UniaxialLaw& law) {
   return std::make_shared<FiberSection>(fibers, 5e4);
 }
 
-FiberMember fiber_member(const BeamFrame& frame, const UniaxialLaw& law = steel) {
-  return {frame, gauss_lobatto(5), std::vector<std::shared_ptr<const FiberSection>>(5, rectangle(law))};
+FiberMember fiber_member(const BeamFrame& frame, const UniaxialLaw& law = bilinear_steel) {
+  return {frame, gauss_lobatto(5), std::vector<std::shared_ptr<const FiberSection>>(5, five_by_seven(law))};
 }
 
 MemberLoad some_load() { return {Vector3(300, -900, 400), {{0.3, Vector3(200, 1500, -700)}}}; }
 const Releases hinges{{false, true, false, true, true, false}};
 
-struct Case {
+struct Sample {
   std::string name;
   std::unique_ptr<ElementGroup> group;
   bool rigid_rotation = true;  // small rigid rotations make no force (P-Delta and pretension: only translations; corotational: corotational_test.cpp)
   bool loaded = false;         // between the ends
 };
 
-std::vector<Case> all_elements() {
-  std::vector<Case> cases;
+std::vector<Sample> all_elements() {
+  std::vector<Sample> cases;
   const ElementNodes nodes{0, 1};
   const BeamFrame frame = skew_frame();
   const ElasticSection section{210e9, 81e9, 3e-3, 1e-5, 4e-6, 8e-8};
@@ -60,7 +60,7 @@ std::vector<Case> all_elements() {
     force->add(nodes, "f", fiber_member(frame));
     cases.push_back({"force" + suffix, std::move(force), small});
     auto truss = std::make_unique<Trusses>(Trusses::Kind::nonlinear, geometry);
-    truss->add(nodes, "t", frame, steel, 2e-4, 0);
+    truss->add(nodes, "t", frame, bilinear_steel, 2e-4, 0);
     cases.push_back({"truss" + suffix, std::move(truss), small});
     auto special_elastic = std::make_unique<ElasticBeams>(geometry);
     special_elastic->add(nodes, "le", {frame, {210e9, 81e9, 3e-3, 1e-5, 4e-6, 8e-8, 1e-3, 8e-4}, {}, some_load(), hinges});
@@ -76,7 +76,7 @@ std::vector<Case> all_elements() {
     cases.push_back({"force with load and releases" + suffix, std::move(special_force), small, true});
   }
   auto wrapped = std::make_unique<ForceBeams>(Geometry::linear);
-  wrapped->add(nodes, "w", fiber_member(frame, Parallel{{inner(steel), inner(InitStrain{inner(ENT{1e9}), 1e-4})}}));
+  wrapped->add(nodes, "w", fiber_member(frame, Parallel{{inner(bilinear_steel), inner(InitStrain{inner(ENT{1e9}), 1e-4})}}));
   cases.push_back({"force-based, wrapped", std::move(wrapped), false});
   auto cable = std::make_unique<Trusses>(Trusses::Kind::cable, Geometry::linear);
   cable->add(nodes, "c", frame, Elastic{160e9}, 1e-4, 2e3);
@@ -106,7 +106,7 @@ std::vector<Case> all_elements() {
     std::vector<Fiber> fibers;
     for (int i = 0; i < plain.fibers; ++i) {
       const auto at = static_cast<std::size_t>(i);
-      fibers.push_back({plain.y[at], plain.z[at], plain.area[at], steel});
+      fibers.push_back({plain.y[at], plain.z[at], plain.area[at], bilinear_steel});
     }
     const auto section = [&fibers](const AddedLaws& laws) { return std::make_shared<FiberSection>(fibers, 1e5, laws); };
     const UniaxialLaw shear = Steel01{2e3, 4e6, 0.05}, twist = Steel01{300, 1e5, 0.03};
@@ -124,9 +124,9 @@ std::vector<Case> all_elements() {
   return cases;
 }
 
-class Probe {
+class SampleProbe {
  public:
-  explicit Probe(const ElementGroup& group) : group_(group) {
+  explicit SampleProbe(const ElementGroup& group) : group_(group) {
     committed_ = VectorX::Zero(std::max(1, group.history_begin(1)));
     group.initialize_history(0, committed_.data());
     if (double* const factor = group.load_factor(0, committed_.data())) *factor = 1;
@@ -156,9 +156,9 @@ Vector12 large_displacement() {
 }  // namespace
 
 TEST_CASE("the tangent of every element equals central differences, elastic, yielding and unloading") {
-  for (const Case& c : all_elements()) {
+  for (const Sample& c : all_elements()) {
     CAPTURE(c.name);
-    Probe probe(*c.group);
+    SampleProbe probe(*c.group);
     for (const double factor : {0.02, 1.0, 0.8}) {
       CAPTURE(factor);
       const Vector12 u = factor * large_displacement();
@@ -177,9 +177,9 @@ TEST_CASE("the tangent of every element equals central differences, elastic, yie
 }
 
 TEST_CASE("rigid-body motion makes no force in any element") {
-  for (const Case& c : all_elements()) {
+  for (const Sample& c : all_elements()) {
     CAPTURE(c.name);
-    Probe probe(*c.group);
+    SampleProbe probe(*c.group);
     Matrix12 tangent;
     const Vector12 at_rest = probe.force(Vector12::Zero(), &tangent);
     const double scale = tangent.cwiseAbs().maxCoeff() * 1e-3;
@@ -199,9 +199,9 @@ TEST_CASE("rigid-body motion makes no force in any element") {
 }
 
 TEST_CASE("responding leaves the committed history as it was, and repeats to the same bits") {
-  for (const Case& c : all_elements()) {
+  for (const Sample& c : all_elements()) {
     CAPTURE(c.name);
-    Probe probe(*c.group);
+    SampleProbe probe(*c.group);
     const VectorX before = probe.committed();
     const Vector12 first = probe.force(large_displacement());
     CHECK(probe.committed() == before);
@@ -210,10 +210,10 @@ TEST_CASE("responding leaves the committed history as it was, and repeats to the
 }
 
 TEST_CASE("element forces are in equilibrium with each other about any point") {
-  for (const Case& c : all_elements()) {
+  for (const Sample& c : all_elements()) {
     if (c.loaded || c.name == "spring" || c.name.ends_with("P-Delta") || c.name.ends_with("corotational")) continue;  // zero length; deformed equilibrium
     CAPTURE(c.name);
-    Probe probe(*c.group);
+    SampleProbe probe(*c.group);
     const Vector12 f = probe.force(large_displacement());
     const Vector3 sum = f.segment<3>(0) + f.segment<3>(6);
     const Vector3 moment = f.segment<3>(3) + f.segment<3>(9) + end_i.cross(f.segment<3>(0).eval()) + end_j.cross(f.segment<3>(6).eval());
@@ -243,7 +243,7 @@ TEST_CASE("a cable is slack below its pretension and carries EA/L above") {
   const BeamFrame frame(Vector3::Zero(), Vector3(2, 0, 0), beam_axes(Vector3::Zero(), Vector3(2, 0, 0), {}));
   Trusses cables(Trusses::Kind::cable, Geometry::linear);
   cables.add({0, 1}, "c", frame, Elastic{160e9}, 1e-4, 2e3);
-  Probe probe(cables);
+  SampleProbe probe(cables);
   const auto pull = [&](double elongation) { return probe.force(elongation * Vector12::Unit(6))[6]; };
   CHECK(pull(0) == doctest::Approx(2e3));
   CHECK(pull(1e-3) == doctest::Approx(2e3 + 160e9 * 1e-4 / 2 * 1e-3));

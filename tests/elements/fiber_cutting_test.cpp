@@ -6,14 +6,13 @@
 #include <cmath>
 
 #include "elements/torsion.hpp"
+#include "tests/support/numbers.hpp"
 
 using namespace nsframe;
 
 namespace {
 
 double sum_area(const Fibers& fibers) { return moments(fibers).area; }
-
-double difference(double value, double reference) { return std::abs(value / reference - 1); }
 
 }  // namespace
 
@@ -25,9 +24,9 @@ TEST_CASE("n strips at their middles lose 1/n^2 of a rectangle's second moment, 
       add_rectangle(fibers, {{0.1, 0.5}, {-0.3, -0.1}}, n, n, {}, spacing);
       const AreaMoments m = moments(fibers);
       const double lost = spacing == Spacing::exact ? 0 : 1.0 / (n * n);
-      CHECK(difference(m.area, 0.08) < 1e-13);
-      CHECK(difference(m.second(0, 0), (1 - lost) * 0.2 * 0.064 / 12) < 1e-12);
-      CHECK(difference(m.second(1, 1), (1 - lost) * 0.4 * 0.008 / 12) < 1e-12);
+      CHECK(relative_difference(m.area, 0.08) < 1e-13);
+      CHECK(relative_difference(m.second(0, 0), (1 - lost) * 0.2 * 0.064 / 12) < 1e-12);
+      CHECK(relative_difference(m.second(1, 1), (1 - lost) * 0.4 * 0.008 / 12) < 1e-12);
       CHECK(std::abs(m.second(0, 1)) < 1e-16);
       CHECK((m.centroid - Vector2(0.3, -0.2)).norm() < 1e-14);
       // the plastic moment b h^2/4
@@ -36,7 +35,7 @@ TEST_CASE("n strips at their middles lose 1/n^2 of a rectangle's second moment, 
         plastic += f.area * std::abs(f.y - 0.3);
         CHECK(std::abs(f.y - 0.3) < 0.2);
       }
-      if (n % 2 == 0 && n > 2) CHECK(difference(plastic, 0.2 * 0.16 / 4) < 1e-12);
+      if (n % 2 == 0 && n > 2) CHECK(relative_difference(plastic, 0.2 * 0.16 / 4) < 1e-12);
     }
   }
   Fibers one;
@@ -64,7 +63,7 @@ TEST_CASE("cells of a quadrilateral fill it, each at its centroid") {
     return 5.0 / 12 - sum;
   };
   CHECK(about_base(20) > 0);
-  CHECK(difference(about_base(20), about_base(40) * 4) < 0.01);
+  CHECK(relative_difference(about_base(20), about_base(40) * 4) < 0.01);
   // the same going round the other way, and not for a folded or hollow one
   CHECK(is_convex({trapeze[3], trapeze[2], trapeze[1], trapeze[0]}));
   CHECK_FALSE(is_convex({trapeze[0], trapeze[2], trapeze[1], trapeze[3]}));
@@ -76,14 +75,14 @@ TEST_CASE("a ring's sectors have its area, and its centroids") {
   Fibers ring;
   add_ring(ring, {{0.1, 0.2}, 0.3, 0.5}, 3, 7, {});
   CHECK(ring.size() == 21);
-  CHECK(difference(sum_area(ring), pi * 0.16) < 1e-14);
+  CHECK(relative_difference(sum_area(ring), pi * 0.16) < 1e-14);
   CHECK((moments(ring).centroid - Vector2(0.1, 0.2)).norm() < 1e-15);
   Fibers half;
   add_ring(half, {{0, 0}, 0, 1, 0, pi}, 5, 1, {});
-  CHECK(difference(moments(half).centroid.y(), 4 / (3 * pi)) < 1e-14);
+  CHECK(relative_difference(moments(half).centroid.y(), 4 / (3 * pi)) < 1e-14);
   Fibers fine;
   add_ring(fine, {{0, 0}, 0, 1}, 200, 400, {});
-  CHECK(difference(moments(fine).second(0, 0), pi / 4) < 1e-4);
+  CHECK(relative_difference(moments(fine).second(0, 0), pi / 4) < 1e-4);
 }
 
 TEST_CASE("bars lie on lines and arcs with both ends, once around without a double") {
@@ -111,7 +110,7 @@ TEST_CASE("moments are matched by moving fibers as little as needed") {
   target.second << 8e-5, -1e-5, -1e-5, 2e-5;
   match_moments(fibers, target);
   const AreaMoments m = moments(fibers);
-  CHECK(difference(m.area, target.area) < 1e-14);
+  CHECK(relative_difference(m.area, target.area) < 1e-14);
   CHECK((m.centroid - target.centroid).norm() < 1e-15);
   CHECK((m.second - target.second).norm() < 1e-13 * target.second.norm());
   // already there: nothing moves
@@ -130,12 +129,12 @@ TEST_CASE("the spandrel of a fillet is the limit of its strips") {
     for (int j = 0; j < 8; ++j) strips.push_back({0.1 - x, 0.2 + (j + 0.5) * height / 8, r / n * height / 8, {}});
   }
   const AreaMoments m = moments(strips);
-  CHECK(difference(m.area, exact.area) < 1e-5);
+  CHECK(relative_difference(m.area, exact.area) < 1e-5);
   CHECK((m.centroid - exact.centroid).norm() < 1e-5 * r);
-  CHECK(difference(m.second(0, 0), exact.second(0, 0)) < 1e-4);
-  CHECK(difference(m.second(0, 1), exact.second(0, 1)) < 1e-4);
-  CHECK(difference(m.second(1, 1), exact.second(1, 1)) < 0.02);  // eight strips of its height
-  CHECK(difference(exact.second(0, 0), exact.second(1, 1)) < 1e-14);
+  CHECK(relative_difference(m.second(0, 0), exact.second(0, 0)) < 1e-4);
+  CHECK(relative_difference(m.second(0, 1), exact.second(0, 1)) < 1e-4);
+  CHECK(relative_difference(m.second(1, 1), exact.second(1, 1)) < 0.02);  // eight strips of its height
+  CHECK(relative_difference(exact.second(0, 0), exact.second(1, 1)) < 1e-14);
 }
 
 TEST_CASE("torsion constants of rectangles and tubes are those of the handbooks") {

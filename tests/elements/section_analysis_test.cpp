@@ -13,7 +13,7 @@ using namespace nsframe;
 
 namespace {
 
-constexpr double E = 200e9, fy = 250e6, yield = fy / E;
+constexpr double E = 200e9, fy = 250e6, steel_yield = fy / E;
 
 AnalysedSection rectangle(double h, double b, int ny, int nz, const UniaxialLaw& law) {
   FiberSectionDescription d;
@@ -26,12 +26,12 @@ MomentCurvature bend(const AnalysedSection& section, double to, double axial = 0
   return moment_curvature(section, {axial, angle, {to}, steps, free});
 }
 
-const ElasticPP plastic{E, yield};
+const ElasticPP plastic{E, steel_yield};
 
 }  // namespace
 
 TEST_CASE("an elastic-plastic rectangle bends as M = My (3 - (ky/k)^2)/2, towards a shape factor of 1.5") {
-  const double h = 0.2, b = 0.1, My = fy * b * h * h / 6, ky = 2 * yield / h;
+  const double h = 0.2, b = 0.1, My = fy * b * h * h / 6, ky = 2 * steel_yield / h;
   const int n = 2000;
   const auto curve = bend(rectangle(h, b, n, 1, plastic), 50 * ky);
   REQUIRE(curve.states.size() == 51);
@@ -55,11 +55,11 @@ TEST_CASE("axial force lowers the plastic moment of a rectangle by (N/Np)^2") {
   const double h = 0.2, b = 0.1, Mp = fy * b * h * h / 4, Np = fy * b * h;
   for (const double n : {-0.7, -0.3, 0.2, 0.9}) {
     CAPTURE(n);
-    const auto curve = bend(rectangle(h, b, 1000, 1, plastic), 400 * yield / h, n * Np);
+    const auto curve = bend(rectangle(h, b, 1000, 1, plastic), 400 * steel_yield / h, n * Np);
     CHECK(curve.states.back().moment == doctest::Approx(Mp * (1 - n * n)).epsilon(1e-3));
     for (const BendingState& s : curve.states) CHECK(s.force[0] == doctest::Approx(n * Np).epsilon(1e-10));
     CHECK(curve.states.front().curvature == 0);
-    CHECK(curve.states.front().deformation[0] == doctest::Approx(n * yield).epsilon(1e-10));
+    CHECK(curve.states.front().deformation[0] == doctest::Approx(n * steel_yield).epsilon(1e-10));
   }
   CHECK_THROWS_AS(bend(rectangle(h, b, 10, 1, plastic), 0.1, 1.01 * Np), ConvergenceError);
 }
@@ -135,7 +135,7 @@ TEST_CASE("points of interaction just reach a limit, and lie on the moment-curva
       const auto [low, high] = strain_range(section.parts[0], p.deformation);
       CHECK(std::max(-low / limit.shortening, high / limit.elongation) == doctest::Approx(1).epsilon(1e-12));
       const double curvature = std::hypot(p.deformation[1], p.deformation[2]);
-      // beyond yield the axial force alone leaves plastic strain, and the order of loading matters
+      // beyond steel_yield the axial force alone leaves plastic strain, and the order of loading matters
       if (curvature == 0 || std::abs(p.force[0]) > fy * 0.3 * 0.2) continue;
       const BendingState s = bend(section, curvature, p.force[0], angle).states.back();
       CHECK(s.moment == doctest::Approx(p.moment).epsilon(1e-6));

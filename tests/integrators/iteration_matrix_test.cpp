@@ -1,18 +1,16 @@
 // The iteration matrix: sparse factors with Woodbury's modal damping against dense ones.
 #include <doctest/doctest.h>
 
-#include <limits>
 
 #include "integrators/iteration_matrix.hpp"
 #include "integrators/static_analysis.hpp"
 #include "tests/integrators/oscillators.hpp"
+#include "tests/support/numbers.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // Two towers of ten elements with modal damping and a dashpot, in contact at their tops.
 ModelDescription towers(Geometry geometry) {

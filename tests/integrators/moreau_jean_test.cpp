@@ -2,18 +2,16 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "base/decompositions.hpp"
 #include "integrators/moreau_jean.hpp"
 #include "tests/integrators/oscillators.hpp"
+#include "tests/support/numbers.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // Chopra's examples 5.3 to 5.6: half a sine of 10 kip over 0.6 s in steps of 0.1 s, as base acceleration.
 ModelDescription with_half_sine(ModelDescription d, double m) {

@@ -2,11 +2,11 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "base/decompositions.hpp"
 #include "integrators/static_analysis.hpp"
 #include "tests/integrators/oscillators.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/reference_data.hpp"
 
 using namespace nsframe;
@@ -14,12 +14,11 @@ using namespace nsframe::test;
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double height = 2.5, E = 210e9, I = 1.033e-5;  // [m], [Pa], [m4]
+constexpr double height = 2.5, steel_E = 210e9, I = 1.033e-5;  // [m], [Pa], [m4]
 
 ModelDescription plane_cantilever(int elements, Geometry geometry = Geometry::p_delta) {
   ModelDescription d;
-  d.sections = {elastic_section("c", {E, 81e9, 3.142e-3, I, I, 8e-8})};
+  d.sections = {elastic_section("c", {steel_E, 81e9, 3.142e-3, I, I, 8e-8})};
   StructureDescription s;
   s.name = "a";
   for (int i = 0; i <= elements; ++i) s.nodes.push_back(node(std::to_string(i), 0, 0, height * i / elements));
@@ -59,7 +58,7 @@ bool stable_under(int elements, double axial, Geometry geometry) {
 }  // namespace
 
 TEST_CASE("a P-Delta cantilever of one element sways as H / (3 EI/L^3 - P/L)") {
-  const double stiffness = 3 * E * I / std::pow(height, 3);
+  const double stiffness = 3 * steel_E * I / std::pow(height, 3);
   for (const double axial : {0.0, 1e5, 3e5, -2e5}) {
     CHECK(tip_displacement(1, axial) == doctest::Approx(1000 / (stiffness - axial / height)).epsilon(1e-9));  // static tolerance 1e-10
   }
@@ -67,9 +66,9 @@ TEST_CASE("a P-Delta cantilever of one element sways as H / (3 EI/L^3 - P/L)") {
 
 TEST_CASE("a P-Delta cantilever of several elements tends to the beam-column solution, at second order") {
   for (const double ratio : {0.1, 0.4, 0.7}) {
-    const double axial = ratio * pi * pi * E * I / (4 * height * height);
-    const double u = height * std::sqrt(axial / (E * I));
-    const double exact = 1000 * std::pow(height, 3) / (3 * E * I) * 3 * (std::tan(u) - u) / std::pow(u, 3);
+    const double axial = ratio * pi * pi * steel_E * I / (4 * height * height);
+    const double u = height * std::sqrt(axial / (steel_E * I));
+    const double exact = 1000 * std::pow(height, 3) / (3 * steel_E * I) * 3 * (std::tan(u) - u) / std::pow(u, 3);
     const double coarse = std::abs(tip_displacement(4, axial) / exact - 1), fine = std::abs(tip_displacement(16, axial) / exact - 1);
     CHECK(fine < 1e-3 * ratio / (1 - ratio) * 1.5);  // the critical load of 16 elements is 8e-4 high
     CHECK(std::log(coarse / fine) / std::log(4.0) == doctest::Approx(2).epsilon(0.05));
@@ -77,7 +76,7 @@ TEST_CASE("a P-Delta cantilever of several elements tends to the beam-column sol
 }
 
 TEST_CASE("a cantilever loses its stability at OpenSees' load, P-Delta and corotational") {
-  const double euler = pi * pi * E * I / (4 * height * height);
+  const double euler = pi * pi * steel_E * I / (4 * height * height);
   CHECK(euler == doctest::Approx(856405.313).epsilon(1e-9));
   for (const auto& row : read_reference("buckling")) {
     const Geometry geometry = row[0] == 0 ? Geometry::p_delta : Geometry::corotational;
@@ -87,7 +86,7 @@ TEST_CASE("a cantilever loses its stability at OpenSees' load, P-Delta and corot
     CHECK(stable_under(elements, row[2] * (1 - 2e-6), geometry));  // OpenSees' loads were bisected to 1e-6
     CHECK_FALSE(stable_under(elements, row[2] * (1 + 2e-6), geometry));
     // a corotational column is shortened by P/EA when it buckles: P (1 - P/EA) is Euler's load
-    const double shortened = row[0] == 0 ? 1 : 1 / (1 - row[2] / (E * 3.142e-3));
+    const double shortened = row[0] == 0 ? 1 : 1 / (1 - row[2] / (steel_E * 3.142e-3));
     if (elements == 16) CHECK(std::abs(row[2] / euler / shortened - 1) < 9e-4);  // (pi/32)^2/12
   }
 }

@@ -1,16 +1,14 @@
 // The part of a step's change of velocity that impacts make, as observers get it.
 #include <doctest/doctest.h>
 
-#include <limits>
 
 #include "tests/integrators/oscillators.hpp"
+#include "tests/support/numbers.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 struct Step {
   State before, after;

@@ -4,15 +4,14 @@
 #include <rapidcheck.h>
 
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "materials/uniaxial.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/reference_data.hpp"
 
 namespace nsframe::test {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double fy = 235e6, E = 210e9, b = 0.01, yield = fy / E;  // [Pa], [Pa], [-], [-]
 
 // A material point that commits every strain it is given.

@@ -2,18 +2,16 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include <limits>
 
 #include "base/errors.hpp"
 #include "integrators/simulation.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/small_models.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // A plane column with three masses.
 StructureDescription tower(const std::string& name, double x) {

@@ -1,18 +1,16 @@
 // Modes: published frames, and the dense solver against the sparse one where matrices are singular.
 #include <doctest/doctest.h>
 
-#include <limits>
 
 #include "assembly/assembler.hpp"
 #include "modal/modes.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/small_models.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 SparseMatrix sparse(const MatrixX& matrix) { return matrix.sparseView(); }
 

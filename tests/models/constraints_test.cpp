@@ -1,19 +1,17 @@
 // Constraints by transformation u = T q: lever arms, masses, loads, and frames with rigid slabs.
 #include <doctest/doctest.h>
 
-#include <limits>
 
 #include "assembly/assembler.hpp"
 #include "integrators/static_analysis.hpp"
 #include "modal/modes.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/small_models.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // Node "m" at the origin, free, and slaves "1", "2", ... at the given arms.
 ModelDescription body(ConstraintKind kind, const std::vector<Vector3>& arms) {

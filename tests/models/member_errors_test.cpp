@@ -1,14 +1,13 @@
 // What members can't have, with its words and its place: integration, sections, mass, releases, loads.
 #include <doctest/doctest.h>
 
+#include "tests/models/descriptions.hpp"
 #include "tests/support/small_models.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-StructureDescription& only(ModelDescription& d) { return d.structures.front(); }
 
 SectionDescription four_fibers() {
   FiberSectionDescription section;

@@ -1,6 +1,5 @@
 #include <doctest/doctest.h>
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -9,6 +8,7 @@
 #include "output/poundings.hpp"
 #include "output/summary.hpp"
 #include "tests/output/sample_pair.hpp"
+#include "tests/support/files.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
@@ -49,13 +49,6 @@ Summary sample_summary() {
   return summary;
 }
 
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 }  // namespace
 
 TEST_CASE("impacts of one pair closer than 20 ms are one pounding, of another pair they are not") {
@@ -86,7 +79,7 @@ TEST_CASE("the summary file has every key of the contract and the numbers of the
   const TemporaryFolder folder;
   const Summary summary = sample_summary();
   write_summary(summary, folder / "summary.json");
-  const auto json = nlohmann::json::parse(content(folder / "summary.json"));
+  const auto json = nlohmann::json::parse(file_text(folder / "summary.json"));
   for (const char* key :
        {"scheme", "dt", "steps", "dofs", "frequencies", "impacts", "poundings", "peaks", "drifts", "floor_spectra", "energy", "numerical_damping",
         "max_penetration", "newton_iterations", "savings", "timing", "warnings", "completed", "stop_reason", "title"}) {

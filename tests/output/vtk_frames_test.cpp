@@ -16,13 +16,13 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
 
 #include "base/errors.hpp"
 #include "output/frame_geometry.hpp"
 #include "output/paraview_script.hpp"
 #include "output/vtk_frames.hpp"
 #include "tests/output/sample_pair.hpp"
+#include "tests/support/files.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
@@ -48,13 +48,6 @@ Vector3 value_at(vtkDataArray* array, vtkIdType i) {
 }
 
 Vector3 point_at(vtkUnstructuredGrid* grid, vtkIdType i) { return Eigen::Map<const Vector3>(grid->GetPoint(i)); }
-
-std::string content(const std::filesystem::path& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t found = 0;
@@ -235,7 +228,7 @@ TEST_CASE("frames are the steps nearest to the frame times, and sum the impulses
     before = after;
   }
   CHECK(frames.frames() == 6);
-  const std::string collection = content(folder / "frames.pvd");
+  const std::string collection = file_text(folder / "frames.pvd");
   CHECK(count(collection, "<DataSet") == 6);
   CHECK(collection.find("timestep=\"0.004\"") != std::string::npos);
   CHECK(collection.find("</VTKFile>") != std::string::npos);  // complete at any time, not only after finish()
@@ -300,7 +293,7 @@ TEST_CASE("an exaggerated displacement is a field of its own and leaves the true
   const Vector3 truly = value_at(grid->GetPointData()->GetArray("displacement"), 100);
   REQUIRE(truly.norm() > 0);
   CHECK((value_at(grid->GetPointData()->GetArray("displacement_exaggerated"), 100) - 25 * truly).norm() < 1e-15);
-  CHECK(content(folder / "open_in_paraview.py").find("SCALE = 25") != std::string::npos);
+  CHECK(file_text(folder / "open_in_paraview.py").find("SCALE = 25") != std::string::npos);
 }
 
 TEST_CASE("frames of an earlier run disappear, other files stay") {
@@ -348,7 +341,7 @@ TEST_CASE("the ParaView script is valid Python that names the frames and starts 
   peak.displacement *= 3;
   frames.step(rest, peak, {}, {});
   frames.finish();
-  const std::string script = content(folder / "open_in_paraview.py");
+  const std::string script = file_text(folder / "open_in_paraview.py");
   CHECK(script.find("AnimationTime = 0.001") != std::string::npos);
   CHECK(script.find("\"frames.pvd\"") != std::string::npos);
   CHECK(script.find("t = {time:.3f} s") != std::string::npos);

@@ -14,7 +14,7 @@ using namespace nsframe::test;
 
 namespace {
 
-struct Run {
+struct ExactRun {
   Summary summary;
   std::vector<State> states;
   const State& last() const { return states.back(); }
@@ -25,7 +25,7 @@ struct Run {
   }
 };
 
-Run run(const ModelDescription& description, double dt, double duration) {
+ExactRun run(const ModelDescription& description, double dt, double duration) {
   const Model model = build(description);
   AnalysisOptions options;
   options.scheme = "exact";
@@ -33,7 +33,7 @@ Run run(const ModelDescription& description, double dt, double duration) {
   options.duration = duration;
   Simulation simulation(model, options);
   Recorder recorder;
-  Run result{simulation.run({&recorder}), {}};
+  ExactRun result{simulation.run({&recorder}), {}};
   CHECK_MESSAGE(result.summary.completed, result.summary.stop_reason);
   result.states = std::move(recorder.states);
   return result;
@@ -52,7 +52,7 @@ ModelDescription pull_back(double e, double xi) {
 }
 
 template <class Exact>
-double largest_error(const Run& run, const Exact& exact) {
+double largest_error(const ExactRun& run, const Exact& exact) {
   double error = 0;
   for (const State& state : run.states) error = std::max(error, std::abs(state.displacement[0] - exact(state.time)));
   return error;
@@ -92,7 +92,7 @@ double momentum_of_bar(const State& state) {
 }
 
 // Time at which the first contact ends.
-double end_of_contact(const Run& run, double after, double before) {
+double end_of_contact(const ExactRun& run, double after, double before) {
   double end = 0;
   for (const State& state : run.states) {
     if (state.time > after && state.time < before && state.impulse.size() > 0 && state.impulse[0] > 0) end = state.time;
@@ -109,7 +109,7 @@ VERIFICATION_CASE("Contact", "Exact scheme: pull-back of two oscillators",
                   "Table 3 of the paper, e = 0.6, damping 0.5 %, over 2 s; closed form between impacts located to rounding, and the state at 2 s "
                   "to its printed digits.") {
   for (const double dt : {1e-2, 1e-3}) {
-    const Run result = run(pull_back(0.6, 0.005), dt, 2);
+    const ExactRun result = run(pull_back(0.6, 0.005), dt, 2);
     rows.add(fmt::format("dt = {:g} s: impacts", dt), static_cast<double>(result.summary.impacts.size()), 3, absolute(0));
     double error = 0;
     for (const State& state : result.states) {
@@ -136,7 +136,7 @@ VERIFICATION_CASE("Contact", "Exact scheme: ball until it rests",
     d.contacts = {contact_of(0, -1, 1.0, e)};
     d.gravity = {Vector3(2, 0, 0), false};
     const double rest = (1 + e) / (1 - e);
-    const Run result = run(d, 1e-3, rest + 0.5);
+    const ExactRun result = run(d, 1e-3, rest + 0.5);
     double last = 0;
     for (const Impact& impact : result.summary.impacts) last = std::max(last, impact.time);
     rows.add(fmt::format("e = {:g}: at rest from, s", e), last, rest, absolute(1e-10));
@@ -161,7 +161,7 @@ VERIFICATION_CASE("Contact", "Exact scheme: preload on a wall",
   d.motions = {motion};
   d.gravity = {Vector3(-k * g0 / m, 0, 0), false};
   d.contacts = {contact_of(0, -1, g0, 0)};
-  const Run result = run(d, 1e-3, 1.4);
+  const ExactRun result = run(d, 1e-3, 1.4);
   double drift = 0, later = 0;
   for (const State& state : result.states) {
     if (state.time > 0.067 && state.time <= t1) drift = std::max(drift, std::abs(state.displacement[0] - g0));
@@ -179,7 +179,7 @@ VERIFICATION_CASE("Contact", "Exact scheme: a wall grazed without speed",
                   "1 kg, q = g0 cos 2 pi t, wall at g0 = 1 cm: touched at whole seconds without speed, no impulse.") {
   ModelDescription d = row({{1, 4 * pi * pi, 0, 0.01}});
   d.contacts = {contact_of(0, -1, 0.01, 0.6)};
-  const Run result = run(d, 1e-3, 3.5);
+  const ExactRun result = run(d, 1e-3, 3.5);
   double impulse = 0;
   for (const Impact& impact : result.summary.impacts) impulse += impact.impulse;
   rows.add("sum of impulses, N s", impulse, 0, absolute(1e-9));
@@ -195,7 +195,7 @@ VERIFICATION_CASE("Contact", "Exact scheme: five equal balls in a row",
     balls[0].velocity = 1;
     ModelDescription d = row(balls);
     for (int i = 0; i + 1 < n; ++i) d.contacts.push_back(contact_of(i, i + 1, gap, 1));
-    const Run result = run(d, 1e-2, 1);
+    const ExactRun result = run(d, 1e-2, 1);
     for (int i = 0; i < n; ++i) {
       const double expected = gap == 0 ? (i == 0 ? (2.0 - n) / n : 2.0 / n) : (i == n - 1 ? 1.0 : 0.0);
       rows.add(fmt::format("gap {:g} m: velocity of ball {}, m/s", gap, i + 1), result.last().velocity[i], expected, absolute(1e-13));
@@ -209,13 +209,13 @@ VERIFICATION_CASE("Contact", "Exact scheme: mass ratios of a million and ten tho
     const double e = 0.7, g = 9.81;
     ModelDescription d = row({{ratio, 0, 0, 0, 1}, {1, 0, 0}});
     d.contacts = {contact_of(0, 1, 0.1, e)};
-    const Run impact = run(d, 1e-2, 0.2);
+    const ExactRun impact = run(d, 1e-2, 0.2);
     rows.add(fmt::format("{:g}: velocity of the heavy ball, m/s", ratio), impact.last().velocity[0], (ratio - e) / (ratio + 1), relative(1e-14));
     rows.add(fmt::format("{:g}: velocity of the light ball, m/s", ratio), impact.last().velocity[1], ratio * (1 + e) / (ratio + 1), relative(1e-14));
     d = row({{ratio, 0, 0}, {1, 0, 0}});
     d.contacts = {contact_of(0, 1, 0, e), contact_of(1, -1, 0, e)};
     d.gravity = {Vector3(g, 0, 0), false};
-    const Run stack = run(d, 1e-2, 0.5);
+    const ExactRun stack = run(d, 1e-2, 0.5);
     const VectorX& p = stack.last().impulse;
     rows.add(fmt::format("{:g}: reaction between them, N", ratio), p[0] / 1e-2, ratio * g, relative(1e-8));
     rows.add(fmt::format("{:g}: reaction of the floor, N", ratio), p[1] / 1e-2, (ratio + 1) * g, relative(1e-8));
@@ -262,7 +262,7 @@ VERIFICATION_CASE("Contact", "Exact scheme: contact on a rotation without mass",
   s.initial_displacements = {{{"2", {}}, 0, -0.02}};
   d.structures = {s};
   d.contacts = {contact_of(0, -1, 0.01, 0.6)};
-  const Run result = run(d, 1e-3, 1.5);
+  const ExactRun result = run(d, 1e-3, 1.5);
   rows.add("first parting, s", result.summary.impacts.at(0).time, 0.42862361, absolute(6e-9));
   rows.add("second parting, s", result.summary.impacts.at(1).time, 1.21333678, absolute(6e-9));
   rows.add("largest penetration, m", result.summary.max_penetration, 0, absolute(1e-12));
@@ -288,7 +288,7 @@ VERIFICATION_CASE("Contact", "Exact scheme: a rigid slab falls flat on four corn
       d.contacts.push_back(c);
     }
     d.gravity = {Vector3(0, 0, -g), false};
-    const Run result = run(d, 1e-3, e > 0 ? 0.15 : 0.5);
+    const ExactRun result = run(d, 1e-3, e > 0 ? 0.15 : 0.5);
     double sum = 0, turned = 0;
     for (std::size_t i = 0; i < 4; ++i) sum += result.summary.impacts.at(i).impulse;
     for (const State& state : result.states) turned = std::max(turned, state.displacement.tail(3).cwiseAbs().maxCoeff());
@@ -303,7 +303,7 @@ VERIFICATION_CASE("Contact", "Exact scheme: a rigid slab falls flat on four corn
 VERIFICATION_CASE("Contact", "Exact scheme: an elastic bar on a wall",
                   "E = 900, rho = 1, L = 10, c = 30 m/s in 100 elements, 5 m off the wall at 10 m/s. Closed form of the bar: in contact from 0.5 s for 2 L/c, "
                   "impulse 200, leaves as it came. The chain of masses disperses the front of the wave over (dx/L)^(2/3) L/c.") {
-  const Run result = run(elastic_bar(5, -10), 1e-3, 1.5);
+  const ExactRun result = run(elastic_bar(5, -10), 1e-3, 1.5);
   double off = 0;
   for (const State& state : result.states) {
     if (state.time > 0.5 && state.time < 0.5 + 2.0 / 3) off = std::max(off, std::abs(state.displacement[0] + 5));
@@ -319,7 +319,7 @@ VERIFICATION_CASE("Contact", "Exact scheme: an elastic bar bounces under gravity
                   "The same bar from rest, 5 m up, under 10 m/s2: hits after 1 s with 10 m/s, pressure rho c (10 + 10 t) for 2 L/c, impulse 266.67.") {
   ModelDescription d = elastic_bar(5, 0);
   d.gravity = {Vector3(-10, 0, 0), false};
-  const Run result = run(d, 1e-3, 2.5);
+  const ExactRun result = run(d, 1e-3, 2.5);
   rows.add("impact, s", result.summary.impacts.at(0).time, 1, relative(1e-12));
   rows.add("end of contact, s", end_of_contact(result, 0.9, 2.4), 1 + 2.0 / 3, absolute(front));
   rows.add("impulse, N s", result.impulse_so_far(), 30 * (10 * 2.0 / 3 + 5 * 4.0 / 9), relative(0.01));

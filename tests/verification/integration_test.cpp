@@ -11,19 +11,19 @@ using namespace nsframe::test;
 
 namespace {
 
-constexpr double E = 210e9, G = E / 2.6, J = 8.13e-8;
+constexpr double column_E = 210e9, column_G = column_E / 2.6, column_J = 8.13e-8;
 
 // Sections "whole" and "weak" (each fiber has half its area), and "elastic" with the constants of the fibers.
 std::vector<SectionDescription> hea140_sections() {
   FiberSectionDescription whole;
-  ElasticSection constants{E, G, 0, 0, 0, J};
+  ElasticSection constants{column_E, column_G, 0, 0, 0, column_J};
   for (const auto& row : read_reference("hea140_fibers")) {
     whole.fibers.push_back({row[0], row[1], row[2], {"steel", {}}});
     constants.A += row[2];
     constants.Iz += row[2] * row[0] * row[0];
     constants.Iy += row[2] * row[1] * row[1];
   }
-  whole.torsion_stiffness = G * J;
+  whole.torsion_stiffness = column_G * column_J;
   FiberSectionDescription weak = whole;
   for (FiberDescription& fiber : weak.fibers) fiber.area /= 2;
   return {{"whole", {}, whole, {}}, {"weak", {}, weak, {}}, elastic_section("elastic", constants)};
@@ -33,7 +33,7 @@ void compare(const std::string& file, ElementKind kind, const Integration& integ
              const std::vector<std::string>& sections) {
   CAPTURE(file);
   ModelDescription d;
-  d.materials.push_back({"steel", {}, Steel02{235e6, E, 0.01, 20.0, 0.925, 0.15}});
+  d.materials.push_back({"steel", {}, Steel02{235e6, column_E, 0.01, 20.0, 0.925, 0.15}});
   d.sections = hea140_sections();
   StructureDescription s;
   s.name = "column";

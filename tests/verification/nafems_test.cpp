@@ -13,7 +13,7 @@ using namespace nsframe::test;
 
 namespace {
 
-constexpr double E = 200e9, G = E / 2.6, density = 8000;
+constexpr double steel_E = 200e9, steel_G = steel_E / 2.6, density = 8000;
 const MemberMass with_rotary{0, density, true, true};
 
 std::vector<double> frequencies(const ModelDescription& d, int count) {
@@ -55,7 +55,7 @@ constexpr double fv5_shear = 10 * 1.3 / (12 + 11 * 0.3);
 ModelDescription deep_beam(int n) {
   ModelDescription d;
   const double A = 4, I = 16.0 / 12;
-  d.sections = {elastic_section("s", {E, G, A, I, I, 2 * I, fv5_shear * A, fv5_shear * A})};
+  d.sections = {elastic_section("s", {steel_E, steel_G, A, I, I, 2 * I, fv5_shear * A, fv5_shear * A})};
   StructureDescription s;
   s.name = "beam";
   s.nodes = {node("0", 0, 0, 0)};
@@ -68,9 +68,9 @@ ModelDescription deep_beam(int n) {
 
 // Bending frequency n of Timoshenko's simply supported beam [Hz].
 double timoshenko(int n, double L, double A, double I, double shear_area) {
-  const double k = n * pi / L, a = density * I * density / (shear_area / A * G);
-  const double b = density * A + density * I * k * k + E * I * density * k * k / (shear_area / A * G),
-               c = E * I * std::pow(k, 4);
+  const double k = n * pi / L, a = density * I * density / (shear_area / A * steel_G);
+  const double b = density * A + density * I * k * k + steel_E * I * density * k * k / (shear_area / A * steel_G),
+               c = steel_E * I * std::pow(k, 4);
   return std::sqrt((b - std::sqrt(b * b - 4 * a * c)) / (2 * a)) / (2 * pi);
 }
 
@@ -81,7 +81,7 @@ VERIFICATION_CASE("Modes", "NAFEMS FV5: deep simply supported beam",
                   "Closed forms of Timoshenko's beam and of rods, and the figures of NAFEMS.") {
   const std::vector<double> f = frequencies(deep_beam(40), 9);
   const auto bending = [](int n) { return timoshenko(n, 10, 4, 16.0 / 12, fv5_shear * 4); };
-  const double torsion = std::sqrt(G / density) / 40, axial = std::sqrt(E / density) / 40;
+  const double torsion = std::sqrt(steel_G / density) / 40, axial = std::sqrt(steel_E / density) / 40;
   add_frequencies(rows, "closed form: ", f,
                   {bending(1), bending(1), torsion, axial, bending(2), bending(2), 3 * torsion, bending(3), bending(3)}, 1e-3);
   add_frequencies(rows, "NAFEMS: ", f, {42.649, 42.649, 77.542, 125.00, 148.31, 148.31, 233.10, 284.55, 284.55}, 5e-3);
@@ -93,7 +93,7 @@ namespace {
 ModelDescription double_cross(double stretch) {
   ModelDescription d;
   const double h = 0.125, A = h * h, I = A * h * h / 12;
-  d.sections = {elastic_section("s", {E, G, stretch * A, I, I, 2 * I})};
+  d.sections = {elastic_section("s", {steel_E, steel_G, stretch * A, I, I, 2 * I})};
   StructureDescription s;
   s.name = "cross";
   s.nodes = {node("c", 0, 0, 0)};
@@ -116,7 +116,7 @@ VERIFICATION_CASE("Modes", "NAFEMS FV2: pin-ended double cross",
                   "Eight arms of 5 m, square of 0.125 m, in their plane; ten elements an arm. The figures are those of arms that don't "
                   "stretch; arms that do let the centre move in two modes of each cluster. Closed form of a clamped and pinned beam.") {
   const double h = 0.125, A = h * h, I = A * h * h / 12;
-  const double unit = std::sqrt(E * I / (density * A)) / (2 * pi * 25);  // arms of 5 m
+  const double unit = std::sqrt(steel_E * I / (density * A)) / (2 * pi * 25);  // arms of 5 m
   const std::vector<double> rigid = frequencies(double_cross(1e3), 16), f = frequencies(double_cross(1), 16);
   const std::array<std::tuple<int, double, double>, 4> clusters{{{0, pi * pi * unit, 11.336},
                                                                 {7, 15.4182057 * unit, 17.709},
@@ -137,7 +137,7 @@ VERIFICATION_CASE("Modes", "NAFEMS FV4: cantilever with off-centre masses",
                   "10 m, round of 0.5 m; 10 and 1 t on rigid arms of 2 m to both sides of the tip; twenty elements.") {
   ModelDescription d;
   const double r = 0.25, A = pi * r * r, I = A * r * r / 4;
-  d.sections = {elastic_section("s", {E, G, A, I, I, 2 * I})};
+  d.sections = {elastic_section("s", {steel_E, steel_G, A, I, I, 2 * I})};
   StructureDescription s;
   s.name = "cantilever";
   s.nodes = {node("0", 0, 0, 0), node("heavy", 10, 2, 0), node("light", 10, -2, 0)};
@@ -202,7 +202,7 @@ VERIFICATION_CASE("Oscillators and time integration", "NAFEMS 5T: deep beam unde
   Simulation at_rest(statically, options);
   const double rest = 1e3 * middle_of(statically, at_rest.state());
   rows.add("static displacement of the middle, mm", rest, 0.538, relative(5e-3));
-  const double EI = E * 16 / 12, GA = G * fv5_shear * 4;  // 5 w L^4/384 EI + w L^2/8 GA
+  const double EI = steel_E * 16 / 12, GA = steel_G * fv5_shear * 4;  // 5 w L^4/384 EI + w L^2/8 GA
   rows.add("the same, closed form", rest, 1e3 * (5e10 / 384 / EI + 1e8 / 8 / GA), relative(1e-9));
 
   d.gravity.statically_first = false;
