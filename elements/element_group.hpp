@@ -137,6 +137,8 @@ class ElementGroup {
   virtual std::vector<FiberPlace> fiber_places(int element) const { (void)element; return {}; }
   // How many of them stand in quiet sections (screening.hpp).
   virtual int quiet_fibers(int element, const double* history) const { (void)element; (void)history; return 0; }
+  // True once the member may have had several states at one deformation of its ends (theory.md, 173).
+  virtual bool softened(int element, const double* history) const { (void)element; (void)history; return false; }
   virtual std::vector<FiberState> fiber_states(int element, const Vector12& displacement, const double* history) const {
     (void)element; (void)displacement; (void)history;
     return {};

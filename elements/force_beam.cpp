@@ -15,12 +15,13 @@ namespace {
 // Views of the element's own part of the history (layout: head_size()).
 template <int n>
 struct Head {
-  static constexpr int basics = n == 3 ? 5 : 6, begin = basics + basics * basics, point = 2 * n + n * n;
+  static constexpr int basics = n == 3 ? 5 : 6, flag = basics + basics * basics, begin = flag + 1, point = 2 * n + n * n;
   Eigen::Map<Eigen::Matrix<double, basics, 1>> force;
   Eigen::Map<Eigen::Matrix<double, basics, basics>> tangent;
+  double& softened;  // 1, once a section's tangent was not positive; else 0
   double* point_data;
 
-  explicit Head(double* data) : force(data), tangent(data + basics), point_data(data + begin) {}
+  explicit Head(double* data) : force(data), tangent(data + basics), softened(data[flag]), point_data(data + begin) {}
   using Vector = Eigen::Map<Eigen::Matrix<double, n, 1>>;
   Vector section_deformation(int i) const { return Vector(point_data + point * i); }
   Vector section_force(int i) const { return Vector(point_data + point * i + n); }
@@ -45,6 +46,7 @@ constexpr int max_line_search = 30;
 // error of about the square), and relative to the forces themselves (rounding).
 constexpr double change_tolerance = 1e-4;
 constexpr double section_tolerance = 1e-11;
+constexpr double softening = 1e-6;         // of the elastic stiffness, negative, that counts as such
 constexpr double least_stiffness = 1e-10;  // of the elastic one, of a section all of whose fibers flow
 
 // Inverse of the tangent of a section's fibers. A section that flows as a whole has none: its deformation follows from the other
@@ -54,6 +56,16 @@ Matrix3 fiber_flexibility(const FiberSection& section, const Matrix3& tangent) {
   const Matrix3 flexibility = tangent.inverse();
   if (flexibility.diagonal().cwiseProduct(elastic).cwiseAbs().maxCoeff() < 1 / least_stiffness) return flexibility;
   return (tangent + least_stiffness * Matrix3(elastic.asDiagonal())).inverse();
+}
+
+// Some deformation meets a falling force.
+bool softens(const FiberSection& section, const Matrix3& tangent) {
+  const Vector3 allowed = softening * section.virgin.tangent.diagonal();
+  const double a = tangent(0, 0) + allowed[0], b = tangent(1, 1) + allowed[1], c = tangent(2, 2) + allowed[2];
+  const double minor = a * b - tangent(0, 1) * tangent(1, 0);
+  if (!(a > 0 && minor > 0)) return true;
+  const double x = tangent(2, 0), y = tangent(2, 1);
+  return !(c * minor > x * (x * b - y * tangent(0, 1)) + y * (y * a - x * tangent(0, 1)));
 }
 
 }  // namespace
@@ -268,7 +280,13 @@ void ForceBeamsOf<n>::find_sections(int element, const Basic& deformation, doubl
     const Eigen::Array2d accepted = (change_tolerance * change_tolerance * change)
                                         .max(section_tolerance * section_tolerance * scale)
                                         .max(rounding * rounding * head.tangent.trace());
-    if (iteration > 0 && (unbalances <= accepted).all()) return;
+    if (iteration > 0 && (unbalances <= accepted).all()) {
+      head.softened = before.softened;
+      for (int i = 0; i < e.points() && head.softened == 0; ++i) {
+        if (softens(e.section(i), head.section_tangent(i).template topLeftCorner<3, 3>())) head.softened = 1;
+      }
+      return;
+    }
     const double unbalance = unbalances.sum();
     if (!std::isfinite(unbalance) || iteration >= max_section_iterations) {
       throw ConvergenceError(fmt::format("force-based element '{}' does not find its section forces", id(element)));
@@ -295,6 +313,11 @@ void ForceBeamsOf<n>::respond_basic(int element, const Vector6& v, double part, 
     force = head.force;
     if (tangent) *tangent = head.tangent;
   }
+}
+
+template <int n>
+bool ForceBeamsOf<n>::softened(int element, const double* history) const {
+  return Head<n>(basic_history(element, const_cast<double*>(history))).softened > 0;
 }
 
 template <int n>

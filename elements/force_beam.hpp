@@ -13,6 +13,7 @@ class ForceBeamsOf : public FiberBeams {
  public:
   using FiberBeams::FiberBeams;
   std::string_view kind() const override { return "force_beam"; }
+  bool softened(int element, const double* history) const override;
 
  protected:
   void initialize_basic(int element, double* history) const override;
@@ -20,8 +21,8 @@ class ForceBeamsOf : public FiberBeams {
                      double* trial, Vector6& force, Matrix6* tangent) const override;
   std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
                                             const double* history) const override;
-  // Basic forces, element tangent, then for each point: deformation, force, tangent.
-  int head_size(const FiberMember& member) const override { return basics * (1 + basics) + n * (2 + n) * member.rule.size(); }
+  // Basic forces, element tangent, whether a section has softened, then for each point: deformation, force, tangent.
+  int head_size(const FiberMember& member) const override { return basics * (1 + basics) + 1 + n * (2 + n) * member.rule.size(); }
   double torsion_stiffness(const FiberMember& member) const override;
 
  private:

@@ -204,6 +204,7 @@ struct Summary {
   long evaluations = 0;                           // of all elements; 0 where the scheme does not count them
   long rejected_parts = 0;                        // of steps, made anew with half the length
   Accumulations accumulations;
+  std::vector<std::string> softened_members;      // force-based ones, once more than one state was possible (theory.md, 173)
   Savings savings;
   Timing timing;
   std::vector<std::string> warnings;              // plain sentences

@@ -158,6 +158,14 @@ long Assembler::quiet_fibers(const VectorX& history) const {
   return count;
 }
 
+std::vector<std::string> Assembler::softened_members(const VectorX& history) const {
+  std::vector<std::string> names;
+  for (const Placed& placed : nonlinear_) {
+    if (placed.group->softened(placed.element, history.data() + placed.history_begin)) names.push_back(placed.group->id(placed.element));
+  }
+  return names;
+}
+
 double Assembler::load_factor(const VectorX& history) const {
   for (const Placed& placed : nonlinear_) {
     const MemberLoad* const load = placed.group->load(placed.element);

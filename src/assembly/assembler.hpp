@@ -22,6 +22,8 @@ class Assembler {
   int linear_elements() const { return static_cast<int>(linear_.size()); }
   // Fibers in quiet sections (screening.hpp).
   long quiet_fibers(const VectorX& history) const;
+  // Names of the members that may have had several states at one deformation (theory.md, 173).
+  std::vector<std::string> softened_members(const VectorX& history) const;
 
   VectorX virgin_history() const;
 

@@ -193,6 +193,7 @@ Summary Simulation::run(const std::vector<Observer*>& observers, const RunContro
   Summary summary = outline();
   const Timer stage_clock;
   const bool arrived = run_stages(stages_.size(), {options_.algorithm, stage_observers, control.stop_requested}, summary.stages);
+  summary.softened_members = system_.assembler.softened_members(state_.history);
   if (!arrived || (!stages_.empty() && !(duration() > 0))) {
     summary.completed = arrived;
     if (!arrived) {
@@ -213,6 +214,7 @@ Summary Simulation::run(const std::vector<Observer*>& observers, const RunContro
   TimeHistoryResult result = run_time_history(system_, *scheme_, options_, duration(), state_, observers, control);
   summary.steps = result.steps;
   summary.end_time = state_.time;
+  summary.softened_members = system_.assembler.softened_members(state_.history);
   summary.impacts = std::move(result.impacts);
   summary.energy = result.energy;
   summary.worst_balance_error = result.worst_balance_error;

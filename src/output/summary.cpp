@@ -313,6 +313,7 @@ std::string summary_json(const Summary& summary) {
        {{"ended", summary.accumulations.ended},
         {"largest_bounce", summary.accumulations.largest_bounce},
         {"plastic", summary.accumulations.plastic}}},
+      {"softened_members", summary.softened_members},
       {"savings",
        {{"elements_assembled_once", summary.savings.elements_assembled_once},
         {"quiet_fibers", summary.savings.quiet_fibers},

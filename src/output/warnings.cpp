@@ -117,9 +117,17 @@ void of_halved_steps(const Model&, const Summary& summary, Sentences& out) {
                             summary.halved_steps, summary.steps));
 }
 
+void of_softened_members(const Model&, const Summary& summary, Sentences& out) {
+  const std::size_t count = summary.softened_members.size();
+  if (count == 0) return;
+  out.push_back(fmt::format("in {} force-based member{} ({}{}) a section softened: such a member can have several states at one deformation "
+                            "and jump between them, so that results need not settle with dt; element = \"displacement\" does not jump",
+                            count, count == 1 ? "" : "s", summary.softened_members[0], count > 1 ? ", ..." : ""));
+}
+
 using Rule = void (*)(const Model&, const Summary&, Sentences&);
 constexpr Rule rules[]{of_the_scheme,  of_light_contact_nodes, of_effective_restitution,
-                       of_penetration, of_coarse_motions,      of_halved_steps};
+                       of_penetration, of_coarse_motions,      of_halved_steps, of_softened_members};
 
 }  // namespace
 

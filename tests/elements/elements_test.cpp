@@ -198,6 +198,28 @@ TEST_CASE("rigid-body motion makes no force in any element") {
   }
 }
 
+TEST_CASE("a force-based member remembers that a section softened, and not one that only yields") {
+  for (const double b : {0.05, 0.0, -0.02}) {
+    CAPTURE(b);
+    const Steel01 law{235e6, 210e9, b};
+    ForceBeams group(Geometry::linear);
+    group.add({0, 1}, "f", fiber_member(skew_frame(), law));
+    SampleProbe probe(group);
+    const Vector12 turn = 3e-2 * (Vector12::Unit(11) - Vector12::Unit(5));  // ends turn against each other
+    probe.force(0.01 * turn);
+    probe.commit();
+    CHECK_FALSE(group.softened(0, probe.committed().data()));
+    for (int k = 1; k <= 20; ++k) {
+      probe.force(0.05 * k * turn);
+      probe.commit();
+    }
+    CHECK(group.softened(0, probe.committed().data()) == (b < 0));
+    probe.force(Vector12::Zero());  // unloaded elastically: it has been so all the same
+    probe.commit();
+    CHECK(group.softened(0, probe.committed().data()) == (b < 0));
+  }
+}
+
 TEST_CASE("responding leaves the committed history as it was, and repeats to the same bits") {
   for (const Sample& c : all_elements()) {
     CAPTURE(c.name);

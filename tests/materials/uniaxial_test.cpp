@@ -66,6 +66,22 @@ TEST_CASE("a bilinear cycle of Steel01 passes the corners of kinematic hardening
   CHECK(point.move(-5 * yield).stress == doctest::Approx(-peak).epsilon(8 * epsilon));
 }
 
+TEST_CASE("a reversal of Steel02 starts its curve anew, however small it is; Steel01 has no memory of one") {
+  // stress, over fy, by which the curve after a reversal of `size` differs half a yield strain later
+  const auto jump = [](const UniaxialLaw& law, double size) {
+    Point plain(law), reversed(law);
+    for (Point* point : {&plain, &reversed}) {
+      for (const double strain : {5.0, -5.0, 1.0}) point->move(strain * yield);
+    }
+    reversed.move((1 - size) * yield);
+    return (reversed.move(1.5 * yield).stress - plain.move(1.5 * yield).stress) / fy;
+  };
+  const Steel02 steel{fy, E, b};
+  CHECK(jump(steel, 1e-3) > 0.05);
+  CHECK(std::abs(jump(steel, 1e-9) / jump(steel, 1e-6) - 1) < 1e-3);
+  CHECK(std::abs(jump(Steel01{fy, E, b}, 1e-6)) < 1e-14);
+}
+
 TEST_CASE("first loading of Steel02 is the Giuffre-Menegotto-Pinto curve") {
   const Steel02 law{fy, E, b};
   for (const double ratio : {0.1, 0.5, 0.9, 1.0, 1.1, 2.0, 10.0, -0.7, -3.0}) {

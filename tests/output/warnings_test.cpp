@@ -100,6 +100,15 @@ TEST_CASE("a step longer than that of the ground motion is told") {
   CHECK(run.warnings()[0] == "dt = 25 ms steps over samples of the ground motion, which are 20 ms apart");
 }
 
+TEST_CASE("force-based members whose sections softened are told") {
+  Run run;
+  run.summary.softened_members = {"left.c1"};
+  REQUIRE(run.warnings().size() == 1);
+  CHECK(run.warnings()[0].find("in 1 force-based member (left.c1) a section softened") == 0);
+  run.summary.softened_members.push_back("left.c2");
+  CHECK(run.warnings()[0].find("in 2 force-based members (left.c1, ...)") == 0);
+}
+
 TEST_CASE("halved steps are told when they are not rare") {
   Run run;
   run.summary.halved_steps = 9;
