@@ -41,8 +41,8 @@ GroundHistory integrate(std::span<const double> a, double dt) {
   return out;
 }
 
-Peak peak_of(std::span<const double> values, double dt) {
-  Peak out;
+MotionPeak peak_of(std::span<const double> values, double dt) {
+  MotionPeak out;
   for (std::size_t i = 0; i < values.size(); ++i)
     if (std::abs(values[i]) > out.value) out = {std::abs(values[i]), dt * static_cast<double>(i)};
   return out;

@@ -12,13 +12,13 @@ struct GroundHistory {
 };
 GroundHistory integrate(std::span<const double> acceleration, double dt);
 
-struct Peak {
+struct MotionPeak {
   double value = 0, time = 0;  // largest absolute value, first time of it [s]
 };
-Peak peak_of(std::span<const double> values, double dt);
+MotionPeak peak_of(std::span<const double> values, double dt);
 
 struct MotionMeasures {
-  Peak acceleration, velocity, displacement;   // [m/s2], [m/s], [m]: PGA, PGV, PGD
+  MotionPeak acceleration, velocity, displacement;   // [m/s2], [m/s], [m]: PGA, PGV, PGD
   double final_velocity = 0, final_displacement = 0;
   double arias = 0;                            // pi / 2g times the integral of a^2 [m/s]
   double from_5 = 0, to_75 = 0, to_95 = 0;     // times at which 5, 75 and 95 % of it are reached [s]

@@ -41,7 +41,7 @@ TargetSpectrum asce7(const Asce7& parameters);  // throws InputError
 // "period [s], PSA [g]") or declared. Throws RecordError, IoError.
 TargetSpectrum target_table(const std::filesystem::path& file, std::optional<AccelerationUnit> unit, double damping);
 
-// Factors from the target to the record's pseudo-acceleration, over periods evenly spaced in logarithm.
+// Factors from the target to the record's pseudo-acceleration, over periods evenly spaced in logarithm (theory.md, 318).
 struct SpectralRatio {
   double least = 0, largest = 0, mean = 0;  // mean: geometric
   double least_at = 0, largest_at = 0;      // periods [s]

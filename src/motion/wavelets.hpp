@@ -1,4 +1,4 @@
-// Wavelets that bring the spectrum of an acceleration to a target (Al Atik, Abrahamson 2010; theory.md, 320-323).
+// Wavelets that bring the spectrum of an acceleration to a target (Al Atik, Abrahamson 2010; theory.md, 322-323).
 #pragma once
 
 #include <span>

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Largest |u| of a free vibration that begins with u and u' = v (theory.md, 311).
+// Largest |u| of a free vibration that begins with u and u' = v (theory.md, 310).
 double free_peak(double u, double v, double period, double xi) {
   const double w = 2 * pi / period, wd = w * std::sqrt(1 - xi * xi), b = (v + xi * w * u) / wd;
   double phase = std::atan2(v, u * wd + xi * w * b);
