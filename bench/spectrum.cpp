@@ -1,5 +1,5 @@
-// Time of a response spectrum: 200 periods from 0.02 to 10 s of a record of 50 s at 1 ms, by the SIMD kernel and by its scalar
-// definition, and of RotD50 and RotD100 of two such records.
+// Time of a response spectrum: 200 periods from 0.02 to 10 s of a record of 50 s at 1 ms, by the SIMD kernel and by its
+// scalar definition, and of RotD50 and RotD100 of two such records.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -15,12 +15,14 @@ std::vector<double> record(double phase) {
   std::vector<double> a;
   for (int i = 0; i <= 50000; ++i) {
     const double t = 1e-3 * i;
-    a.push_back(t * std::exp(-0.15 * t) * (std::sin(7 * t + phase) + std::sin(19 * t + 2 * phase) + 0.5 * std::sin(61 * t)));
+    a.push_back(t * std::exp(-0.15 * t) *
+                (std::sin(7 * t + phase) + std::sin(19 * t + 2 * phase) + 0.5 * std::sin(61 * t)));
   }
   return a;
 }
 
-using Spectrum = std::vector<double> (*)(std::span<const double>, double, const std::vector<double>&, const SpectrumOptions&);
+using Spectrum = std::vector<double> (*)(std::span<const double>, double, const std::vector<double>&,
+                                         const SpectrumOptions&);
 
 void one_component(benchmark::State& state, Spectrum spectrum) {
   const std::vector<double> a = record(0), periods = logarithmic_periods(0.02, 10, 200);

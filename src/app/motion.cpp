@@ -41,29 +41,49 @@ const double g = in_si(AccelerationUnit::g);
 std::string csv_text(const Record& record) {
   std::string out = "time [s],acceleration [m/s2]\n";
   for (std::size_t i = 0; i < record.acceleration.size(); ++i)
-    fmt::format_to(std::back_inserter(out), "{:.10g},{:.10g}\n", record.dt * static_cast<double>(i), record.acceleration[i]);
+    fmt::format_to(std::back_inserter(out), "{:.10g},{:.10g}\n", record.dt * static_cast<double>(i),
+                   record.acceleration[i]);
   return out;
 }
 
 void print_measures(const Record& record) {
   const MotionMeasures m = measure(record.acceleration, record.dt);
-  fmt::print("  {} values, dt {:g} s, {:g} s\n", record.acceleration.size(), record.dt, record.dt * static_cast<double>(record.acceleration.size() - 1));
-  fmt::print("  {:<24} {:>12.5g} m/s2  at {:.3f} s  ({:.4f} g)\n", "PGA", m.acceleration.value, m.acceleration.time, m.acceleration.value / g);
+  fmt::print("  {} values, dt {:g} s, {:g} s\n", record.acceleration.size(), record.dt,
+             record.dt * static_cast<double>(record.acceleration.size() - 1));
+  fmt::print("  {:<24} {:>12.5g} m/s2  at {:.3f} s  ({:.4f} g)\n", "PGA", m.acceleration.value, m.acceleration.time,
+             m.acceleration.value / g);
   fmt::print("  {:<24} {:>12.5g} m/s   at {:.3f} s\n", "PGV", m.velocity.value, m.velocity.time);
   fmt::print("  {:<24} {:>12.5g} m     at {:.3f} s\n", "PGD", m.displacement.value, m.displacement.time);
   fmt::print("  {:<24} {:>12.5g} m/s\n", "Arias intensity", m.arias);
-  fmt::print("  {:<24} {:>12.5g} s     from {:.3f} to {:.3f} s\n", "duration D5-75", m.significant_75(), m.from_5, m.to_75);
-  fmt::print("  {:<24} {:>12.5g} s     from {:.3f} to {:.3f} s\n", "duration D5-95", m.significant_95(), m.from_5, m.to_95);
+  fmt::print("  {:<24} {:>12.5g} s     from {:.3f} to {:.3f} s\n", "duration D5-75", m.significant_75(), m.from_5,
+             m.to_75);
+  fmt::print("  {:<24} {:>12.5g} s     from {:.3f} to {:.3f} s\n", "duration D5-95", m.significant_95(), m.from_5,
+             m.to_95);
   fmt::print("  {:<24} {:>12.5g} m/s, {:.5g} m\n", "at the end", m.final_velocity, m.final_displacement);
 }
 
 nlohmann::json measures_json(const Record& record, const std::string& file) {
   const MotionMeasures m = measure(record.acceleration, record.dt);
-  return {{"file", file}, {"format", record.format}, {"description", record.description}, {"notes", record.notes},
-          {"samples", record.acceleration.size()}, {"dt", record.dt}, {"pga", m.acceleration.value}, {"pga_time", m.acceleration.time},
-          {"pgv", m.velocity.value}, {"pgv_time", m.velocity.time}, {"pgd", m.displacement.value}, {"pgd_time", m.displacement.time},
-          {"arias", m.arias}, {"t5", m.from_5}, {"t75", m.to_75}, {"t95", m.to_95}, {"d5_75", m.significant_75()}, {"d5_95", m.significant_95()},
-          {"final_velocity", m.final_velocity}, {"final_displacement", m.final_displacement}};
+  return {{"file", file},
+          {"format", record.format},
+          {"description", record.description},
+          {"notes", record.notes},
+          {"samples", record.acceleration.size()},
+          {"dt", record.dt},
+          {"pga", m.acceleration.value},
+          {"pga_time", m.acceleration.time},
+          {"pgv", m.velocity.value},
+          {"pgv_time", m.velocity.time},
+          {"pgd", m.displacement.value},
+          {"pgd_time", m.displacement.time},
+          {"arias", m.arias},
+          {"t5", m.from_5},
+          {"t75", m.to_75},
+          {"t95", m.to_95},
+          {"d5_75", m.significant_75()},
+          {"d5_95", m.significant_95()},
+          {"final_velocity", m.final_velocity},
+          {"final_displacement", m.final_displacement}};
 }
 
 int info(const MotionArguments& a) {
@@ -102,7 +122,8 @@ int scale(const MotionArguments& a) {
     throw InputError("error: give one of --pga, --factor and --target");
   Record record = only_record(a);
   const double peak = peak_of(record.acceleration, record.dt).value;
-  if (peak == 0) throw InputError(fmt::format("error: '{}' is zero throughout and can't be scaled", a.record.files.front()));
+  if (peak == 0)
+    throw InputError(fmt::format("error: '{}' is zero throughout and can't be scaled", a.record.files.front()));
   double factor = 1;
   std::string fit;
   if (a.factor) {
@@ -117,8 +138,8 @@ int scale(const MotionArguments& a) {
     const SpectralRatio r = spectral_ratio(record.acceleration, record.dt, target, shortest, longest);
     factor = a.at_least.empty() ? 1 / r.mean : quantity("--at-least", a.at_least, dimension::none) / r.least;
     if (!(factor > 0)) throw InputError(fmt::format("error: --at-least = \"{}\", must be positive", a.at_least));
-    fit = fmt::format(" to {} from {:g} to {:g} s ({:.3f} of it at {:.3g} s to {:.3f} at {:.3g} s)", target.name, shortest, longest, factor * r.least,
-                      r.least_at, factor * r.largest, r.largest_at);
+    fit = fmt::format(" to {} from {:g} to {:g} s ({:.3f} of it at {:.3g} s to {:.3f} at {:.3g} s)", target.name,
+                      shortest, longest, factor * r.least, r.least_at, factor * r.largest, r.largest_at);
   }
   for (double& value : record.acceleration) value *= factor;
   return write(a, record, fmt::format("{} scaled by {:.6g}{}", a.record.files.front(), factor, fit));
@@ -126,10 +147,13 @@ int scale(const MotionArguments& a) {
 
 int baseline(const MotionArguments& a) {
   Record record = only_record(a);
-  if (record.acceleration.size() < static_cast<std::size_t>(a.degree) + 4) throw InputError("error: the record is too short for its baseline");
+  if (record.acceleration.size() < static_cast<std::size_t>(a.degree) + 4)
+    throw InputError("error: the record is too short for its baseline");
   record.acceleration = baseline_corrected(record.acceleration, record.dt, a.degree);
   if (a.rest) record.acceleration = brought_to_rest(record.acceleration, record.dt);
-  return write(a, record, fmt::format("{} less a baseline of degree {}{}", a.record.files.front(), a.degree, a.rest ? ", brought to rest" : ""));
+  return write(a, record,
+               fmt::format("{} less a baseline of degree {}{}", a.record.files.front(), a.degree,
+                           a.rest ? ", brought to rest" : ""));
 }
 
 int filter(const MotionArguments& a) {
@@ -143,14 +167,22 @@ int filter(const MotionArguments& a) {
   try {
     Filtered filtered = band_passed(record.acceleration, record.dt, options);
     record.acceleration = std::move(filtered.acceleration);
-    if (a.keep_pads)
-      record.notes.push_back(fmt::format("{} values more than the record; its start is at {:g} s", record.acceleration.size() - before, -filtered.begins));
+    if (!a.keep_pads)
+      record.notes.push_back(
+          fmt::format("at the start the filtered motion has {:.3g} m/s and {:.3g} m, which a record from rest has not: "
+                      "it drifts, unless "
+                      "--keep-pads keeps what is before, or motion baseline --rest follows",
+                      filtered.velocity, filtered.displacement));
+    else
+      record.notes.push_back(fmt::format("{} values more than the record; its start is at {:g} s",
+                                         record.acceleration.size() - before, -filtered.begins));
   } catch (const std::invalid_argument& problem) {
     throw InputError(fmt::format("error: {}", problem.what()));
   }
-  return write(a, record, fmt::format("{} filtered{}{}, Butterworth of order {} forwards and backwards", a.record.files.front(),
-                                      options.from > 0 ? fmt::format(" from {:g} Hz", options.from) : "",
-                                      options.to > 0 ? fmt::format(" to {:g} Hz", options.to) : "", options.order));
+  return write(a, record,
+               fmt::format("{} filtered{}{}, Butterworth of order {} forwards and backwards", a.record.files.front(),
+                           options.from > 0 ? fmt::format(" from {:g} Hz", options.from) : "",
+                           options.to > 0 ? fmt::format(" to {:g} Hz", options.to) : "", options.order));
 }
 
 int rotate(const MotionArguments& a) {
@@ -159,11 +191,15 @@ int rotate(const MotionArguments& a) {
   if (std::abs(first.dt - second.dt) > 1e-6 * first.dt)
     throw InputError(fmt::format("error: the components have steps of {:g} and {:g} s", first.dt, second.dt));
   const Quantity angle = parse_quantity(a.angle);
-  const double radians = angle.dimension == dimension::none ? angle.value * pi / 180 : quantity("--angle", a.angle, dimension::angle);
+  const double radians =
+      angle.dimension == dimension::none ? angle.value * pi / 180 : quantity("--angle", a.angle, dimension::angle);
   if (first.acceleration.size() != second.acceleration.size())
-    first.notes.push_back(fmt::format("components of {} and {} values: the shorter goes on with zeros", first.acceleration.size(), second.acceleration.size()));
+    first.notes.push_back(fmt::format("components of {} and {} values: the shorter goes on with zeros",
+                                      first.acceleration.size(), second.acceleration.size()));
   first.acceleration = rotated(first.acceleration, second.acceleration, radians);
-  return write(a, first, fmt::format("{} turned by {:g} degrees towards {}", a.record.files[0], radians * 180 / pi, a.record.files[1]));
+  return write(
+      a, first,
+      fmt::format("{} turned by {:g} degrees towards {}", a.record.files[0], radians * 180 / pi, a.record.files[1]));
 }
 
 int artificial(const MotionArguments& a) {
@@ -179,16 +215,21 @@ int artificial(const MotionArguments& a) {
   }
   options.duration = quantity("--duration", a.duration, dimension::time);
   options.dt = quantity("--dt", a.dt, dimension::time);
-  options.envelope = {quantity("--rise", a.rise, dimension::time), quantity("--level", a.level, dimension::time), a.decay};
+  options.envelope = {quantity("--rise", a.rise, dimension::time), quantity("--level", a.level, dimension::time),
+                      a.decay};
   options.tolerance = ratio("--tolerance", a.tolerance);
   options.seed = a.seed;
   const ArtificialMotion motion = artificial_motion(target, options);
   Record record;
   record.dt = options.dt;
   record.acceleration = motion.acceleration;
-  record.description = fmt::format("artificial, seed {}, {}, damping {:g} %, periods {:g} to {:g} s", a.seed, target.name, 100 * target.damping, options.shortest, options.longest);
-  return write(a, record, fmt::format("artificial motion for {}: within {:.1f} % of it from {:g} to {:g} s ({} iterations of the {}. set of phases, sines alone {:.1f} %)",
-                                      target.name, 100 * motion.misfit, options.shortest, options.longest, motion.iterations, motion.draws, 100 * motion.misfit_of_sines));
+  record.description = fmt::format("artificial, seed {}, {}, damping {:g} %, periods {:g} to {:g} s", a.seed,
+                                   target.name, 100 * target.damping, options.shortest, options.longest);
+  return write(a, record,
+               fmt::format("artificial motion for {}: within {:.1f} % of it from {:g} to {:g} s (phases drawn: {}, "
+                           "iterations: {}, sines alone {:.1f} %)",
+                           target.name, 100 * motion.misfit, options.shortest, options.longest, motion.draws,
+                           motion.iterations, 100 * motion.misfit_of_sines));
 }
 
 int plot(const MotionArguments& a) {
@@ -215,7 +256,8 @@ using Action = int (*)(const MotionArguments&);
 }  // namespace
 
 void add_motion_command(CLI::App& program, std::function<int()>& command) {
-  CLI::App* motion = program.add_subcommand("motion", "acceleration records: measures, scaling, filters, artificial motions");
+  CLI::App* motion =
+      program.add_subcommand("motion", "acceleration records: measures, scaling, filters, artificial motions");
   motion->require_subcommand(1);
   const auto add = [&](const char* name, const char* text, Action action) {
     auto arguments = std::make_shared<MotionArguments>();
@@ -223,7 +265,9 @@ void add_motion_command(CLI::App& program, std::function<int()>& command) {
     c->callback([&command, arguments, action] { command = [arguments, action] { return action(*arguments); }; });
     return std::pair{c, arguments};
   };
-  const auto add_output = [](CLI::App* c, MotionArguments& a, const char* what) { c->add_option("-o,--output", a.output, what)->required(); };
+  const auto add_output = [](CLI::App* c, MotionArguments& a, const char* what) {
+    c->add_option("-o,--output", a.output, what)->required();
+  };
   constexpr const char* record_file = "file to write, .at2 or .csv";
   {
     const auto [c, a] = add("info", "step, peaks, Arias intensity and significant durations", info);
@@ -231,9 +275,8 @@ void add_motion_command(CLI::App& program, std::function<int()>& command) {
     c->add_flag("--json", a->json, "print JSON");
   }
   {
-    const auto [c, a] = add("convert", "write a record in another format", [](const MotionArguments& x) {
-      return write(x, only_record(x), x.record.files.front());
-    });
+    const auto [c, a] = add("convert", "write a record in another format",
+                            [](const MotionArguments& x) { return write(x, only_record(x), x.record.files.front()); });
     add_record_options(*c, a->record, 1, 1);
     add_output(c, *a, record_file);
   }
@@ -244,7 +287,8 @@ void add_motion_command(CLI::App& program, std::function<int()>& command) {
     c->add_option("--pga", a->pga, "peak to scale to, as \"0.3 g\"");
     c->add_option("--factor", a->factor, "to multiply by");
     add_target_options(*c, a->target, false);
-    c->add_option("--over", a->over, "periods over which the geometric mean of the ratio to the target becomes 1, as 0.1,2");
+    c->add_option("--over", a->over,
+                  "periods over which the geometric mean of the ratio to the target becomes 1, as 0.1,2");
     c->add_option("--at-least", a->at_least, "in place of the mean: the least ratio over the periods, as 0.9");
   }
   {
@@ -260,7 +304,8 @@ void add_motion_command(CLI::App& program, std::function<int()>& command) {
     add_output(c, *a, record_file);
     c->add_option("--from", a->from, "corner of the high-pass, as \"0.1 Hz\"");
     c->add_option("--to", a->to, "corner of the low-pass, as \"25 Hz\"");
-    c->add_option("--order", a->order, "of each filter, which runs forwards and backwards (default: 4)")->check(CLI::Range(1, 10));
+    c->add_option("--order", a->order, "of each filter, which runs forwards and backwards (default: 4)")
+        ->check(CLI::Range(1, 10));
     c->add_flag("--keep-pads", a->keep_pads, "keep what the filter brings before and after the record");
   }
   {

@@ -9,7 +9,10 @@
 namespace nsframe::app {
 
 void add_record_options(CLI::App& command, RecordArguments& a, int least, int most) {
-  command.add_option("record", a.files, most > 1 ? "record files (AT2, COSMOS, CSMIP V2, ESM, K-NET, text, CSV)" : "record file (AT2, COSMOS, CSMIP V2, ESM, K-NET, text, CSV)")
+  command
+      .add_option("record", a.files,
+                  most > 1 ? "record files (AT2, COSMOS, CSMIP V2, ESM, K-NET, text, CSV)"
+                           : "record file (AT2, COSMOS, CSMIP V2, ESM, K-NET, text, CSV)")
       ->required()
       ->expected(least, most);
   command.add_option("--unit", a.unit, "of a file that doesn't say: g, m/s2, cm/s2, mm/s2, in/s2, ft/s2");
@@ -26,13 +29,16 @@ Record load_record(const RecordArguments& a, const std::string& file) {
   if (a.channel > 0) options.channel = a.channel;
   if (!a.unit.empty()) {
     options.unit = parse_acceleration_unit(a.unit);
-    if (!options.unit) throw InputError(fmt::format("error: --unit {} is no unit of acceleration; known: {}", a.unit, known_acceleration_units()));
+    if (!options.unit)
+      throw InputError(
+          fmt::format("error: --unit {} is no unit of acceleration; known: {}", a.unit, known_acceleration_units()));
   }
   return read_record(file, options);
 }
 
 void add_target_options(CLI::App& command, TargetArguments& a, bool required) {
-  CLI::Option* target = command.add_option("--target", a.target, "spectrum: eurocode8, asce7, or a table file of period [s] and pseudo-acceleration");
+  CLI::Option* target = command.add_option(
+      "--target", a.target, "spectrum: eurocode8, asce7, or a table file of period [s] and pseudo-acceleration");
   if (required) target->required();
   command.add_option("--type", a.type, "of Eurocode 8: 1 or 2 (default: 1)")->check(CLI::Range(1, 2));
   command.add_option("--ground", a.ground, "of Eurocode 8: A to E (default: A)");
@@ -61,13 +67,18 @@ TargetSpectrum load_target(const TargetArguments& a) {
   std::optional<AccelerationUnit> unit;
   if (!a.unit.empty()) {
     unit = parse_acceleration_unit(a.unit);
-    if (!unit) throw InputError(fmt::format("error: --target-unit {} is no unit of acceleration; known: {}", a.unit, known_acceleration_units()));
+    if (!unit)
+      throw InputError(fmt::format("error: --target-unit {} is no unit of acceleration; known: {}", a.unit,
+                                   known_acceleration_units()));
   }
   try {
     return target_table(a.target, unit, damping);
   } catch (const IoError&) {
-    throw InputError(fmt::format("error: --target {}: neither eurocode8 nor asce7{}, nor a file that can be read", a.target,
-                                 nearest(a.target, {"eurocode8", "asce7"}).empty() ? "" : " (did you mean " + nearest(a.target, {"eurocode8", "asce7"}) + "?)"));
+    throw InputError(fmt::format("error: --target {}: neither eurocode8 nor asce7{}, nor a file that can be read",
+                                 a.target,
+                                 nearest(a.target, {"eurocode8", "asce7"}).empty()
+                                     ? ""
+                                     : " (did you mean " + nearest(a.target, {"eurocode8", "asce7"}) + "?)"));
   }
 }
 
@@ -82,15 +93,19 @@ double quantity(const std::string& option, const std::string& text, const Dimens
 
 double ratio(const std::string& option, const std::string& text) {
   const double value = quantity(option, text, dimension::none);
-  if (!(value >= 0 && value < 1)) throw InputError(fmt::format("error: {} = {}, must lie in [0, 1); percent are written as \"5 %\"", option, text));
+  if (!(value >= 0 && value < 1))
+    throw InputError(fmt::format("error: {} = {}, must lie in [0, 1); percent are written as \"5 %\"", option, text));
   return value;
 }
 
 std::pair<double, double> period_range(const std::string& option, const std::string& text) {
   const std::size_t comma = text.find(',');
-  if (comma == std::string::npos) throw InputError(fmt::format("error: {} {}: must be two periods, as 0.1,2", option, text));
-  const double shortest = quantity(option, text.substr(0, comma), dimension::time), longest = quantity(option, text.substr(comma + 1), dimension::time);
-  if (!(shortest > 0 && longest > shortest)) throw InputError(fmt::format("error: {} {}: periods must be positive and rise", option, text));
+  if (comma == std::string::npos)
+    throw InputError(fmt::format("error: {} {}: must be two periods, as 0.1,2", option, text));
+  const double shortest = quantity(option, text.substr(0, comma), dimension::time),
+               longest = quantity(option, text.substr(comma + 1), dimension::time);
+  if (!(shortest > 0 && longest > shortest))
+    throw InputError(fmt::format("error: {} {}: periods must be positive and rise", option, text));
   return {shortest, longest};
 }
 

@@ -1,4 +1,5 @@
-// What the commands about records share: options that say how a file is read, target spectra, quantities of the command line.
+// What the commands about records share: options that say how a file is read, target spectra, quantities of the command
+// line.
 #pragma once
 
 #include <string>
@@ -25,7 +26,7 @@ void add_record_options(CLI::App& command, RecordArguments& arguments, int least
 Record load_record(const RecordArguments& arguments, const std::string& file);
 
 struct TargetArguments {
-  std::string target;                       // "eurocode8", "asce7" or a file; empty: none
+  std::string target;  // "eurocode8", "asce7" or a file; empty: none
   std::string ag, ground = "A", sds, sd1, tl = "8 s", unit, damping = "5 %";
   int type = 1;
 };

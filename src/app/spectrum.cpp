@@ -59,7 +59,8 @@ std::vector<double> periods_of(const SpectrumArguments& a) {
 
 Spectrum of_records(const SpectrumArguments& a) {
   Record first = load_record(a.record, a.record.files.front());
-  Spectrum out{a.record.files.front(), ratio("--damping", a.target.damping), periods_of(a), {}};
+  const auto name = [](const std::string& file) { return std::filesystem::path(file).filename().string(); };
+  Spectrum out{name(a.record.files.front()), ratio("--damping", a.target.damping), periods_of(a), {}};
   const SpectrumOptions options{out.damping, a.at_samples};
   if (a.record.files.size() == 1) {
     out.series.push_back({"", spectral_displacement(first.acceleration, first.dt, out.periods, options)});
@@ -68,11 +69,12 @@ Spectrum of_records(const SpectrumArguments& a) {
   Record second = load_record(a.record, a.record.files[1]);
   if (std::abs(first.dt - second.dt) > 1e-6 * first.dt)
     throw InputError(fmt::format("error: the components have steps of {:g} and {:g} s", first.dt, second.dt));
-  const std::size_t count = std::max(first.acceleration.size(), second.acceleration.size());  // the shorter goes on with zeros
+  const std::size_t count =
+      std::max(first.acceleration.size(), second.acceleration.size());  // the shorter goes on with zeros
   first.acceleration.resize(count);
   second.acceleration.resize(count);
   const RotatedSpectrum r = rotated_spectrum(first.acceleration, second.acceleration, first.dt, out.periods, options);
-  out.title += " and " + a.record.files[1];
+  out.title += " and " + name(a.record.files[1]);
   out.series = {{"RotD50", r.rotd50}, {"RotD100", r.rotd100}, {"1", r.first}, {"2", r.second}};
   return out;
 }
@@ -87,10 +89,13 @@ Spectrum of_floors(const SpectrumArguments& a) {
     known = true;
     for (int direction = 0; direction < 3; ++direction) {
       const std::vector<double> values = table.along(node, direction);
-      if (*std::max_element(values.begin(), values.end()) > 0) out.series.push_back({fmt::format("{} {}", table.nodes[node], "xyz"[direction]), values});
+      if (*std::max_element(values.begin(), values.end()) > 0)
+        out.series.push_back({fmt::format("{} {}", table.nodes[node], "xyz"[direction]), values});
     }
   }
-  if (!known) throw InputError(fmt::format("error: --floor: the run has no floor spectrum of '{}'{}", a.floor, did_you_mean(a.floor, table.nodes)));
+  if (!known)
+    throw InputError(fmt::format("error: --floor: the run has no floor spectrum of '{}'{}", a.floor,
+                                 did_you_mean(a.floor, table.nodes)));
   if (out.series.empty()) throw InputError(fmt::format("error: --floor {}: nothing moved there", a.floor));
   return out;
 }
@@ -101,22 +106,29 @@ std::string column(const Series& series, const char* what, const char* unit) {
 
 std::string csv(const Spectrum& s) {
   std::string out = "period [s]";
-  for (const Series& one : s.series) out += "," + column(one, "PSA", "m/s2") + "," + column(one, "PSV", "m/s") + "," + column(one, "SD", "m");
+  for (const Series& one : s.series)
+    out += "," + column(one, "PSA", "m/s2") + "," + column(one, "PSV", "m/s") + "," + column(one, "SD", "m");
   out += '\n';
   for (std::size_t i = 0; i < s.periods.size(); ++i) {
     const double w = 2 * pi / s.periods[i];
     fmt::format_to(std::back_inserter(out), "{:.10g}", s.periods[i]);
     for (const Series& one : s.series)
-      fmt::format_to(std::back_inserter(out), ",{:.8g},{:.8g},{:.8g}", w * w * one.displacement[i], w * one.displacement[i], one.displacement[i]);
+      fmt::format_to(std::back_inserter(out), ",{:.8g},{:.8g},{:.8g}", w * w * one.displacement[i],
+                     w * one.displacement[i], one.displacement[i]);
     out += '\n';
   }
   return out;
 }
 
 std::string json(const Spectrum& s) {
-  nlohmann::json out{{"title", s.title}, {"damping", s.damping}, {"period", s.periods}, {"units", {{"psa", "m/s2"}, {"psv", "m/s"}, {"sd", "m"}}}};
+  nlohmann::json out{{"title", s.title},
+                     {"damping", s.damping},
+                     {"period", s.periods},
+                     {"units", {{"psa", "m/s2"}, {"psv", "m/s"}, {"sd", "m"}}}};
   for (const Series& one : s.series)
-    out["spectra"].push_back({{"name", one.name}, {"sd", one.displacement}, {"psv", pseudo_velocity(s.periods, one.displacement)},
+    out["spectra"].push_back({{"name", one.name},
+                              {"sd", one.displacement},
+                              {"psv", pseudo_velocity(s.periods, one.displacement)},
                               {"psa", pseudo_acceleration(s.periods, one.displacement)}});
   return out.dump(2);
 }
@@ -127,7 +139,8 @@ std::string svg(const Spectrum& s, const SpectrumArguments& a) {
   chart.x_label = "period, s";
   chart.y_label = "pseudo-acceleration, m/s²";
   chart.log_x = chart.log_y = true;
-  for (const Series& one : s.series) chart.curves.push_back({one.name, s.periods, pseudo_acceleration(s.periods, one.displacement), false, false});
+  for (const Series& one : s.series)
+    chart.curves.push_back({one.name, s.periods, pseudo_acceleration(s.periods, one.displacement), false, false});
   if (!a.target.target.empty()) {
     const TargetSpectrum target = load_target(a.target);
     Curve curve{target.name, {}, {}, false, true};
@@ -160,7 +173,7 @@ void print_table(const Spectrum& s) {
     }
     fmt::print("\n");
   }
-  if (step > 1) fmt::print("every {}th of {} periods; all of them with -o or --json\n", step, s.periods.size());
+  if (step > 1) fmt::print("one of {} of the {} periods; all of them with -o or --json\n", step, s.periods.size());
 }
 
 int spectrum(const SpectrumArguments& a) {
@@ -187,14 +200,16 @@ int spectrum(const SpectrumArguments& a) {
 }  // namespace
 
 void add_spectrum_command(CLI::App& program, std::function<int()>& command) {
-  CLI::App* c = program.add_subcommand("spectrum", "response spectra of a record, RotD50 and RotD100 of two, floor spectra of a run");
+  CLI::App* c = program.add_subcommand(
+      "spectrum", "response spectra of a record, RotD50 and RotD100 of two, floor spectra of a run");
   auto a = std::make_shared<SpectrumArguments>();
   add_record_options(*c, a->record, 1, 2);
   add_target_options(*c, a->target, false);
   c->add_option("--periods", a->range, "shortest and longest, evenly spaced in logarithm (default: 0.02,10)");
   c->add_option("--count", a->count, "of these (default: 200)")->check(CLI::Range(2, 100000));
   c->add_option("--at", a->at, "periods in place of a range, as 0.5,1,2");
-  c->add_flag("--at-samples", a->at_samples, "peaks at the record's samples only, as most books (default: also between them and after the end)");
+  c->add_flag("--at-samples", a->at_samples,
+              "peaks at the record's samples only, as most books (default: also between them and after the end)");
   c->add_option("--floor", a->floor, "the record is a folder of results: floor spectra of this node, or of all");
   c->add_option("-o,--output", a->output, "folder for spectrum.csv, spectrum.json, spectrum.svg");
   c->add_flag("--json", a->json, "print JSON");

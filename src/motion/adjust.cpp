@@ -32,7 +32,8 @@ Section section(double k, double q, bool high) {
 std::vector<Section> butterworth(double corner, double dt, int order, bool high) {
   const double k = std::tan(pi * corner * dt);
   std::vector<Section> sections;
-  for (int i = 0; i < order / 2; ++i) sections.push_back(section(k, 1 / (2 * std::sin(pi * (2 * i + 1) / (2 * order))), high));
+  for (int i = 0; i < order / 2; ++i)
+    sections.push_back(section(k, 1 / (2 * std::sin(pi * (2 * i + 1) / (2 * order))), high));
   if (order % 2 == 1) sections.push_back(section(k, 0, high));
   return sections;
 }
@@ -51,9 +52,12 @@ void pass(const std::vector<Section>& sections, std::vector<double>& values) {
 void check(const BandPass& options, double dt) {
   const double nyquist = 0.5 / dt;
   if (options.order < 1 || options.order > 10) throw std::invalid_argument("the order of a filter must lie in [1, 10]");
-  if (options.from < 0 || options.to < 0 || (options.from == 0 && options.to == 0)) throw std::invalid_argument("a filter needs a corner frequency above 0");
-  if (options.from >= nyquist || options.to >= nyquist) throw std::invalid_argument("corner frequencies must lie below half the sampling frequency");
-  if (options.from > 0 && options.to > 0 && options.from >= options.to) throw std::invalid_argument("the corners of a band-pass must rise");
+  if (options.from < 0 || options.to < 0 || (options.from == 0 && options.to == 0))
+    throw std::invalid_argument("a filter needs a corner frequency above 0");
+  if (options.from >= nyquist || options.to >= nyquist)
+    throw std::invalid_argument("corner frequencies must lie below half the sampling frequency");
+  if (options.from > 0 && options.to > 0 && options.from >= options.to)
+    throw std::invalid_argument("the corners of a band-pass must rise");
 }
 
 }  // namespace
@@ -69,7 +73,8 @@ std::vector<double> baseline_corrected(std::span<const double> acceleration, dou
     const double s = static_cast<double>(i) / static_cast<double>(count - 1);
     const double weight = i == 0 || i + 1 == count ? 0.5 : 1;
     std::vector<double> basis(n);
-    for (std::size_t k = 0; k < n; ++k) basis[k] = duration * std::pow(s, static_cast<double>(k + 1)) / static_cast<double>(k + 1);
+    for (std::size_t k = 0; k < n; ++k)
+      basis[k] = duration * std::pow(s, static_cast<double>(k + 1)) / static_cast<double>(k + 1);
     for (std::size_t k = 0; k < n; ++k) {
       b[k] += weight * basis[k] * velocity[i];
       for (std::size_t l = 0; l < n; ++l) A[k * n + l] += weight * basis[k] * basis[l];
@@ -119,9 +124,14 @@ Filtered band_passed(std::span<const double> acceleration, double dt, const Band
   std::reverse(values.begin(), values.end());
   pass(sections, values);
   std::reverse(values.begin(), values.end());
-  if (options.keep_pads) return {values, -dt * static_cast<double>(pad)};
+  const GroundHistory history = integrate(values, dt);
+  if (options.keep_pads)
+    return {values, -dt * static_cast<double>(pad), history.velocity[pad], history.displacement[pad]};
   const auto first = values.begin() + static_cast<std::ptrdiff_t>(pad);
-  return {{first, first + static_cast<std::ptrdiff_t>(acceleration.size())}, 0};
+  return {{first, first + static_cast<std::ptrdiff_t>(acceleration.size())},
+          0,
+          history.velocity[pad],
+          history.displacement[pad]};
 }
 
 std::vector<double> rotated(std::span<const double> first, std::span<const double> second, double angle) {

@@ -6,12 +6,12 @@
 
 namespace nsframe {
 
-// Takes the polynomial of time of `degree` (0 to 6) from the acceleration for which the integral of velocity squared is least
-// (theory.md, 314). Throws std::invalid_argument.
+// Takes the polynomial of time of `degree` (0 to 6) from the acceleration for which the integral of velocity squared is
+// least (theory.md, 314). Throws std::invalid_argument.
 std::vector<double> baseline_corrected(std::span<const double> acceleration, double dt, int degree);
 
-// Takes from the acceleration a polynomial that leaves velocity and displacement zero at the end; it is zero at both ends
-// (theory.md, 315).
+// Takes from the acceleration a polynomial that leaves velocity and displacement zero at the end; it is zero at both
+// ends (theory.md, 315).
 std::vector<double> brought_to_rest(std::span<const double> acceleration, double dt);
 
 struct BandPass {
@@ -23,6 +23,8 @@ struct BandPass {
 struct Filtered {
   std::vector<double> acceleration;
   double begins = 0;  // [s]: time of the first value, negative with pads
+  double velocity = 0,
+         displacement = 0;  // of the filtered motion at the start of the record, at rest long before [m/s], [m]
 };
 // Butterworth filters, once forwards and once backwards, so without shift of phase: the amplitude at a corner is halved
 // (theory.md, 316-317). Zeros are put before and after the record (Boore 2005). Throws std::invalid_argument.

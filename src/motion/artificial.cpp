@@ -20,7 +20,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int sine_iterations = 12, periods_checked = 300;
 constexpr double highest_frequency = 50;  // [Hz] of the sines
-constexpr double spacing = 0.5;            // of the periods that wavelets are put at, in logarithm, over the damping ratio
+constexpr double spacing = 0.5;  // of the periods that wavelets are put at, in logarithm, over the damping ratio
 
 double misfit_of(const SpectralRatio& ratio) { return std::max(ratio.largest - 1, 1 - ratio.least); }
 
@@ -33,11 +33,14 @@ class Maker {
   std::vector<double> sum_of_sines() const;
   void correct_amplitudes(const std::vector<double>& acceleration);
   std::vector<double> wavelet_periods() const {
-    const int count = static_cast<int>(std::ceil(std::log(options_.longest / options_.shortest) / (spacing * std::max(target_.damping, 0.02)))) + 1;
+    const int count = static_cast<int>(std::ceil(std::log(options_.longest / options_.shortest) /
+                                                 (spacing * std::max(target_.damping, 0.02)))) +
+                      1;
     return logarithmic_periods(options_.shortest, options_.longest, std::max(count, 2));
   }
   double misfit(const std::vector<double>& acceleration) const {
-    return misfit_of(spectral_ratio(acceleration, options_.dt, target_, options_.shortest, options_.longest, periods_checked));
+    return misfit_of(
+        spectral_ratio(acceleration, options_.dt, target_, options_.shortest, options_.longest, periods_checked));
   }
 
   const TargetSpectrum& target_;
@@ -47,7 +50,9 @@ class Maker {
 };
 
 Maker::Maker(const TargetSpectrum& target, const ArtificialOptions& options, std::mt19937& generator)
-    : target_(target), options_(options), count_(static_cast<std::size_t>(std::lround(options.duration / options.dt)) + 1) {
+    : target_(target),
+      options_(options),
+      count_(static_cast<std::size_t>(std::lround(options.duration / options.dt)) + 1) {
   const double step = 1 / options.duration, highest = std::min(highest_frequency, 0.4 / options.dt);
   const double lowest = std::max(step, 0.7 / options.longest);
   for (double f = lowest; f <= highest; f += step) {
@@ -75,12 +80,17 @@ std::vector<double> Maker::sum_of_sines() const {
   return brought_to_rest(out, options_.dt);
 }
 
-// Each amplitude by the ratio of target to response at its own period; beyond the matched range, where the target goes on.
+// Each amplitude by the ratio of target to response at its own period; beyond the matched range, where the target goes
+// on.
 void Maker::correct_amplitudes(const std::vector<double>& acceleration) {
   std::vector<double> periods;
-  for (const double f : frequency_) periods.push_back(std::clamp(1 / f, std::max(target_.shortest, 1e-3), std::min(target_.longest, 1.2 * options_.longest)));
-  const auto psa = pseudo_acceleration(periods, spectral_displacement(acceleration, options_.dt, periods, {target_.damping, false}));
-  for (std::size_t k = 0; k < periods.size(); ++k) amplitude_[k] *= std::clamp(target_.acceleration(periods[k]) / psa[k], 0.3, 3.0);
+  for (const double f : frequency_)
+    periods.push_back(
+        std::clamp(1 / f, std::max(target_.shortest, 1e-3), std::min(target_.longest, 1.2 * options_.longest)));
+  const auto psa =
+      pseudo_acceleration(periods, spectral_displacement(acceleration, options_.dt, periods, {target_.damping, false}));
+  for (std::size_t k = 0; k < periods.size(); ++k)
+    amplitude_[k] *= std::clamp(target_.acceleration(periods[k]) / psa[k], 0.3, 3.0);
 }
 
 ArtificialMotion Maker::make() {
@@ -121,11 +131,16 @@ void check(const ArtificialOptions& o) {
   const auto require = [](bool condition, const std::string& text) {
     if (!condition) throw InputError("error: " + text);
   };
-  require(o.dt > 0 && o.duration >= 100 * o.dt && o.duration <= 1e6 * o.dt, "an artificial motion needs 100 to 1000000 steps");
-  require(o.envelope.rise >= 0 && o.envelope.level >= 0 && o.envelope.decay > 0, "parts of the envelope must not be negative, and it must decay");
-  require(o.envelope.rise + o.envelope.level <= o.duration, "the rise and the level part of the envelope are longer than the motion");
-  require(o.shortest >= 8 * o.dt * (1 - 1e-9), fmt::format("periods from {:g} s need a step of {:g} s or less", o.shortest, o.shortest / 8));
-  require(o.longest <= 0.5 * o.duration, fmt::format("periods to {:g} s need a duration of {:g} s or more", o.longest, 2 * o.longest));
+  require(o.dt > 0 && o.duration >= 100 * o.dt && o.duration <= 1e6 * o.dt,
+          "an artificial motion needs 100 to 1000000 steps");
+  require(o.envelope.rise >= 0 && o.envelope.level >= 0 && o.envelope.decay > 0,
+          "parts of the envelope must not be negative, and it must decay");
+  require(o.envelope.rise + o.envelope.level <= o.duration,
+          "the rise and the level part of the envelope are longer than the motion");
+  require(o.shortest >= 8 * o.dt * (1 - 1e-9),
+          fmt::format("periods from {:g} s need a step of {:g} s or less", o.shortest, o.shortest / 8));
+  require(o.longest <= 0.5 * o.duration,
+          fmt::format("periods to {:g} s need a duration of {:g} s or more", o.longest, 2 * o.longest));
   require(o.tolerance > 0, "the tolerance must be positive");
 }
 
@@ -148,9 +163,10 @@ ArtificialMotion artificial_motion(const TargetSpectrum& target, const Artificia
     if (one.misfit < best.misfit) best = std::move(one);
     if (best.misfit <= options.tolerance) return best;
   }
-  throw ConvergenceError(fmt::format("the spectrum still differs by {:.1f} % from the target after {} sets of phases, more than the tolerance of "
-                                     "{:g} %: try another seed, a longer duration or a shorter range of periods",
-                                     100 * best.misfit, options.max_draws, 100 * options.tolerance));
+  throw ConvergenceError(fmt::format(
+      "the spectrum still differs by {:.1f} % from the target after {} sets of phases, more than the tolerance of "
+      "{:g} %: try another seed, a longer duration or a shorter range of periods",
+      100 * best.misfit, options.max_draws, 100 * options.tolerance));
 }
 
 }  // namespace nsframe

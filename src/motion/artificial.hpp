@@ -1,6 +1,6 @@
-// Artificial accelerograms whose spectrum matches a target: sines with random phases under an envelope, their amplitudes
-// corrected in turns (Gasparini, Vanmarcke 1976), then wavelets added at the times of the peaks (Al Atik, Abrahamson 2010);
-// theory.md, 319-323.
+// Artificial accelerograms whose spectrum matches a target: sines with random phases under an envelope, their
+// amplitudes corrected in turns (Gasparini, Vanmarcke 1976), then wavelets added at the times of the peaks (Al Atik,
+// Abrahamson 2010); theory.md, 319-323.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ struct Envelope {
 };
 
 struct ArtificialOptions {
-  double duration = 20, dt = 0.005;   // [s]
+  double duration = 20, dt = 0.005;  // [s]
   Envelope envelope;
-  double shortest = 0, longest = 0;    // periods between which the spectrum must match [s]
-  double tolerance = 0.08;             // largest relative difference from the target there
+  double shortest = 0, longest = 0;  // periods between which the spectrum must match [s]
+  double tolerance = 0.08;           // largest relative difference from the target there
   std::uint32_t seed = 1;
-  int max_iterations = 15;             // of the wavelets, for one set of phases
-  int max_draws = 12;                  // of sets of phases, one after the other from the same seed
+  int max_iterations = 15;  // of the wavelets, for one set of phases
+  int max_draws = 12;       // of sets of phases, one after the other from the same seed
 };
 
 struct ArtificialMotion {

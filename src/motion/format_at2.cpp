@@ -67,16 +67,16 @@ RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
     }
   }
   if (values.size() < header->count)
-    throw RecordFault{lines.number(), 1, fmt::format("ends after {} of NPTS = {} values", values.size(), header->count)};
+    throw RecordFault{lines.number(), 1,
+                      fmt::format("ends after {} of NPTS = {} values", values.size(), header->count)};
   return out;
 }
 
 }  // namespace
 
-const RecordFormat peer_at2{"at2", "PEER AT2",
-                            [](const FileBeginning& file) {
-                              return file.extension == ".AT2" || file.text.find("NPTS") != std::string::npos;
-                            },
-                            read};
+const RecordFormat peer_at2{
+    "at2", "PEER AT2",
+    [](const FileBeginning& file) { return file.extension == ".AT2" || file.text.find("NPTS") != std::string::npos; },
+    read};
 
 }  // namespace nsframe

@@ -42,11 +42,14 @@ std::optional<DataLine> data_line(const std::string& line, int number) {
 
 double step_of(const std::vector<double>& real, int line) {
   const auto valid = [&](std::size_t i) { return i < real.size() && real[i] > 0; };  // -999: unknown
-  if (!valid(step_in_ms) && !valid(step_in_s)) throw RecordFault{line, 1, "real headers 34 and 62 don't give the sampling interval"};
+  if (!valid(step_in_ms) && !valid(step_in_s))
+    throw RecordFault{line, 1, "real headers 34 and 62 don't give the sampling interval"};
   if (!valid(step_in_ms)) return real[step_in_s];
   const double dt = 1e-3 * real[step_in_ms];
   if (valid(step_in_s) && std::abs(real[step_in_s] - dt) > 1e-4 * dt)
-    throw RecordFault{line, 1, fmt::format("two sampling intervals: {} s in real header 34, {} ms in 62", real[step_in_s], real[step_in_ms])};
+    throw RecordFault{
+        line, 1,
+        fmt::format("two sampling intervals: {} s in real header 34, {} ms in 62", real[step_in_s], real[step_in_ms])};
   return dt;
 }
 
@@ -71,7 +74,9 @@ RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
     read_numbers(lines, data->count, data->width, values);
     if (!data->acceleration || !choice.offer(name, at)) continue;
     out.unit = parse_acceleration_unit(data->unit);
-    if (!out.unit) throw RecordFault{at, 1, fmt::format("'{}' is no unit of acceleration; known: {}", data->unit, known_acceleration_units())};
+    if (!out.unit)
+      throw RecordFault{
+          at, 1, fmt::format("'{}' is no unit of acceleration; known: {}", data->unit, known_acceleration_units())};
     out.record.dt = step_of(real, at);
     out.record.acceleration = std::move(values);
     out.record.description = name;

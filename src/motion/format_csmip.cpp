@@ -29,11 +29,14 @@ RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
   while (lines.next()) {
     const std::string text = upper(lines.line());
     const int at = lines.number();
-    if (const std::size_t chan = text.find("CHAN "); chan != std::string::npos && text.find("END OF DATA") == std::string::npos)
+    if (const std::size_t chan = text.find("CHAN ");
+        chan != std::string::npos && text.find("END OF DATA") == std::string::npos)
       name = trimmed(std::string_view(lines.line()).substr(chan));
     const std::size_t points = text.find("POINTS OF "), step = text.find(spaced);
     const bool acceleration = text.find("ACC") != std::string::npos;
-    if (points == std::string::npos || step == std::string::npos || !(acceleration || text.find("VEL") != std::string::npos || text.find("DISP") != std::string::npos)) continue;
+    if (points == std::string::npos || step == std::string::npos ||
+        !(acceleration || text.find("VEL") != std::string::npos || text.find("DISP") != std::string::npos))
+      continue;
     const auto count = leading_number(text);
     const auto dt = leading_number(text.substr(step + spaced.size()));
     if (!count || !dt) throw RecordFault{at, 1, "must say its number of points and step"};

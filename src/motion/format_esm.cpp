@@ -1,5 +1,5 @@
-// ESM and ITACA (DYNA 1.2): lines "KEY: VALUE", among them SAMPLING_INTERVAL_S, NDATA, UNITS and DATA_TYPE, then one value
-// a line.
+// ESM and ITACA (DYNA 1.2): lines "KEY: VALUE", among them SAMPLING_INTERVAL_S, NDATA, UNITS and DATA_TYPE, then one
+// value a line.
 #include <fmt/format.h>
 
 #include "motion/formats.hpp"
@@ -9,7 +9,7 @@ namespace nsframe {
 namespace {
 
 struct Header {
-  std::optional<double> dt;            // [s]
+  std::optional<double> dt;  // [s]
   std::optional<std::size_t> count;
   std::string event, station, stream;
   RecordFormat::Reading reading{};
@@ -26,7 +26,8 @@ bool read_key(std::string_view line, int number, Header& header) {
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos) return false;
   const std::string_view key = trimmed(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
-  if (key == "SAMPLING_INTERVAL_S") header.dt = positive_step(number_of(value, key, number), "SAMPLING_INTERVAL_S", number);
+  if (key == "SAMPLING_INTERVAL_S")
+    header.dt = positive_step(number_of(value, key, number), "SAMPLING_INTERVAL_S", number);
   if (key == "NDATA") header.count = sample_count(number_of(value, key, number), "NDATA", number);
   if (key == "EVENT_NAME") header.event = value;
   if (key == "STATION_CODE") header.station = value;
@@ -35,7 +36,9 @@ bool read_key(std::string_view line, int number, Header& header) {
     throw RecordFault{number, 1, fmt::format("is not an acceleration record: DATA_TYPE is {}", value)};
   if (key == "UNITS") {
     header.reading.unit = parse_acceleration_unit(value);
-    if (!header.reading.unit) throw RecordFault{number, 1, fmt::format("'{}' is no unit of acceleration; known: {}", value, known_acceleration_units())};
+    if (!header.reading.unit)
+      throw RecordFault{number, 1,
+                        fmt::format("'{}' is no unit of acceleration; known: {}", value, known_acceleration_units())};
   }
   return true;
 }
@@ -56,7 +59,8 @@ RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
     if (!part.empty()) record.description += (record.description.empty() ? "" : ", ") + part;
   read_numbers(lines, *header.count, 0, record.acceleration);
   while (lines.next())
-    if (!trimmed(lines.line()).empty()) throw RecordFault{lines.number(), 1, fmt::format("more values than NDATA = {}", *header.count)};
+    if (!trimmed(lines.line()).empty())
+      throw RecordFault{lines.number(), 1, fmt::format("more values than NDATA = {}", *header.count)};
   return header.reading;
 }
 
@@ -64,7 +68,8 @@ RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
 
 const RecordFormat esm_dyna{"esm", "ESM",
                             [](const FileBeginning& file) {
-                              return file.text.starts_with("EVENT_NAME:") || file.text.find("SAMPLING_INTERVAL_S:") != std::string::npos;
+                              return file.text.starts_with("EVENT_NAME:") ||
+                                     file.text.find("SAMPLING_INTERVAL_S:") != std::string::npos;
                             },
                             read};
 

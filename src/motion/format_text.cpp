@@ -1,6 +1,6 @@
-// Plain text and CSV: one value a line, or time and acceleration, separated by blanks, tabs, commas or semicolons. Lines
-// that begin with # or %, and a first line of column names, may say the unit and the step: "# unit: cm/s2", "# dt = 0.005",
-// "time [s], acceleration [g]".
+// Plain text and CSV: one value a line, or time and acceleration, separated by blanks, tabs, commas or semicolons.
+// Lines that begin with # or %, and a first line of column names, may say the unit and the step: "# unit: cm/s2", "# dt
+// = 0.005", "time [s], acceleration [g]".
 #include <fmt/format.h>
 
 #include <cmath>
@@ -24,10 +24,12 @@ struct Times {
     if (i == 0 && time != 0) throw RecordFault{line, 1, fmt::format("the first time is {}, must be 0", time)};
     if (i == 1) first_step = time, second_line = line;
     if (i > 0 && !(time > last))
-      throw RecordFault{line, 1, fmt::format("time {} is not after {}{}", time, last,
-                                             rows.maybe_decimal_commas() ? " (are these decimal commas? write points)" : "")};
+      throw RecordFault{line, 1,
+                        fmt::format("time {} is not after {}{}", time, last,
+                                    rows.maybe_decimal_commas() ? " (are these decimal commas? write points)" : "")};
     if (i > 0 && std::abs(time - last - first_step) > step_tolerance * first_step)
-      throw RecordFault{line, 1, fmt::format("the step to time {} is {}, not {} as before", time, time - last, first_step)};
+      throw RecordFault{line, 1,
+                        fmt::format("the step to time {} is {}, not {} as before", time, time - last, first_step)};
     last = time;
   }
 };
@@ -53,7 +55,8 @@ RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
   while (rows.next()) {
     if (rows.columns() == 2) times.add(rows.values().front(), values.size(), rows);
     values.push_back(rows.values().back());
-    if (values.size() > max_record_samples) throw RecordFault{lines.number(), 1, fmt::format("more than {} values", max_record_samples)};
+    if (values.size() > max_record_samples)
+      throw RecordFault{lines.number(), 1, fmt::format("more than {} values", max_record_samples)};
   }
   if (values.empty()) throw RecordFault{lines.place(), 1, "holds no values"};
   rows.finish();

@@ -34,13 +34,21 @@ Record read(const std::filesystem::path& file, std::ifstream& stream, const Read
   auto [record, unit] = format.read(lines, options);
   const std::string name = file.filename().string();
   if (unit && options.unit && *unit != *options.unit)
-    throw RecordFault{0, 0, fmt::format("'{}' ({}) is in units of {}, not {}", name, format.text, name_of(*unit), name_of(*options.unit))};
+    throw RecordFault{
+        0, 0,
+        fmt::format("'{}' ({}) is in units of {}, not {}", name, format.text, name_of(*unit), name_of(*options.unit))};
   if (!unit && !options.unit)
-    throw RecordFault{0, 0, fmt::format("'{}' ({}) doesn't say its unit, which must be given: unit = \"...\" in a scene, --unit on the "
-                                        "command line; one of {}", name, format.text, known_acceleration_units())};
+    throw RecordFault{
+        0, 0,
+        fmt::format("'{}' ({}) doesn't say its unit, which must be given: unit = \"...\" in a scene, --unit on the "
+                    "command line; one of {}",
+                    name, format.text, known_acceleration_units())};
   if (record.dt == 0 && !options.dt)
-    throw RecordFault{0, 0, fmt::format("'{}' ({}) doesn't say its step, which must be given: dt = \"...\" in a scene, --dt on the command "
-                                        "line", name, format.text)};
+    throw RecordFault{
+        0, 0,
+        fmt::format("'{}' ({}) doesn't say its step, which must be given: dt = \"...\" in a scene, --dt on the command "
+                    "line",
+                    name, format.text)};
   if (record.dt == 0) record.dt = *options.dt;
   if (options.dt && std::abs(*options.dt - record.dt) > 0.01 * record.dt)
     throw RecordFault{0, 0, fmt::format("'{}' has a step of {} s, not dt = {} s", name, record.dt, *options.dt)};
@@ -83,15 +91,20 @@ bool ChannelChoice::offer(const std::string& name, int line) {
   ++offered_;
   if (wanted_) return offered_ == *wanted_;
   if (offered_ > 1)
-    throw RecordFault{line, 1, fmt::format("a second channel begins here ({}; the first: {}): say which to read, channel = 1, 2, ... in a "
-                                           "scene, --channel on the command line", name, first_)};
+    throw RecordFault{
+        line, 1,
+        fmt::format("a second channel begins here ({}; the first: {}): say which to read, channel = 1, 2, ... in a "
+                    "scene, --channel on the command line",
+                    name, first_)};
   first_ = name;
   return true;
 }
 
 void ChannelChoice::finish(int line) const {
   if (wanted_ && *wanted_ > offered_)
-    throw RecordFault{line, 1, fmt::format("holds {} channel{} of acceleration, not {}", offered_, offered_ == 1 ? "" : "s", *wanted_)};
+    throw RecordFault{
+        line, 1,
+        fmt::format("holds {} channel{} of acceleration, not {}", offered_, offered_ == 1 ? "" : "s", *wanted_)};
   if (offered_ == 0) throw RecordFault{line, 1, "holds no accelerations"};
 }
 

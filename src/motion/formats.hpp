@@ -14,12 +14,12 @@ struct FileBeginning {
 
 struct RecordFormat {
   const char* name;
-  const char* text;                             // what it is
+  const char* text;  // what it is
   bool (*recognises)(const FileBeginning&);
   // Reads dt and acceleration, in m/s2 when `unit` says so of the file, else sets `unit` to what the file says.
   // dt = 0 or no unit: the file doesn't say. Throws RecordFault.
   struct Reading {
-    Record record;                              // accelerations in `unit`
+    Record record;  // accelerations in `unit`
     std::optional<AccelerationUnit> unit;
   };
   Reading (*read)(LineReader&, const ReadOptions&);

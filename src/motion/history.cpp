@@ -15,7 +15,9 @@ double time_of_share(std::span<const double> a, double dt, double whole, double 
   double sum = 0;
   for (std::size_t i = 0; i + 1 < a.size(); ++i) {
     const double start = a[i], change = a[i + 1] - a[i];
-    const auto part = [&](double s) { return dt * s * (start * start + s * (start * change + s * change * change / 3)); };
+    const auto part = [&](double s) {
+      return dt * s * (start * start + s * (start * change + s * change * change / 3));
+    };
     if (sum + part(1) < share * whole) {
       sum += part(1);
       continue;
@@ -59,7 +61,8 @@ MotionMeasures measure(std::span<const double> a, double dt) {
     out.final_displacement = history.displacement.back();
   }
   double squares = 0;
-  for (std::size_t i = 0; i + 1 < a.size(); ++i) squares += dt * (a[i] * a[i] + a[i] * a[i + 1] + a[i + 1] * a[i + 1]) / 3;
+  for (std::size_t i = 0; i + 1 < a.size(); ++i)
+    squares += dt * (a[i] * a[i] + a[i] * a[i + 1] + a[i + 1] * a[i + 1]) / 3;
   out.arias = std::numbers::pi / (2 * in_si(AccelerationUnit::g)) * squares;
   out.from_5 = time_of_share(a, dt, squares, 0.05);
   out.to_75 = time_of_share(a, dt, squares, 0.75);

@@ -67,7 +67,8 @@ std::string_view trimmed(std::string_view text) {
 
 std::string upper(std::string_view text) {
   std::string out(text);
-  std::transform(out.begin(), out.end(), out.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::transform(out.begin(), out.end(), out.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   return out;
 }
 
@@ -78,7 +79,8 @@ double number(const Token& token, int line) {
   const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
   const std::string_view shown = token.text.substr(0, 40);
   if (code == std::errc{} && end != text.data() + text.size() && *end == ',')
-    throw RecordFault{line, token.column, fmt::format("'{}': write decimals with a point, and blanks between columns", shown)};
+    throw RecordFault{line, token.column,
+                      fmt::format("'{}': write decimals with a point, and blanks between columns", shown)};
   if (code == std::errc::result_out_of_range)
     throw RecordFault{line, token.column, fmt::format("'{}' is out of the range of numbers", shown)};
   if (code != std::errc{} || end != text.data() + text.size())
@@ -105,7 +107,8 @@ std::optional<std::string_view> value_behind(std::string_view line, std::string_
 
 std::size_t sample_count(double count, const char* name, int line) {
   if (!(count >= 1) || count != std::floor(count) || count > double(max_record_samples))
-    throw RecordFault{line, 1, fmt::format("{} = {}, must be a whole number from 1 to {}", name, count, max_record_samples)};
+    throw RecordFault{line, 1,
+                      fmt::format("{} = {}, must be a whole number from 1 to {}", name, count, max_record_samples)};
   return static_cast<std::size_t>(count);
 }
 
@@ -123,7 +126,8 @@ void read_numbers(LineReader& lines, std::size_t count, int width, std::vector<d
     const std::string_view line = lines.line();
     if (width == 0) {
       for (const Token& token : tokens(line)) {
-        if (into.size() - first == count) throw RecordFault{lines.number(), token.column, fmt::format("more values than {}", count)};
+        if (into.size() - first == count)
+          throw RecordFault{lines.number(), token.column, fmt::format("more values than {}", count)};
         into.push_back(number(token, lines.number()));
       }
       continue;
@@ -133,7 +137,8 @@ void read_numbers(LineReader& lines, std::size_t count, int width, std::vector<d
       const std::string_view text = trimmed(field);
       if (text.empty()) continue;
       const int column = static_cast<int>(at + field.find_first_not_of(blanks)) + 1;
-      if (into.size() - first == count) throw RecordFault{lines.number(), column, fmt::format("more values than {}", count)};
+      if (into.size() - first == count)
+        throw RecordFault{lines.number(), column, fmt::format("more values than {}", count)};
       into.push_back(number({text, column}, lines.number()));
     }
   }
@@ -145,7 +150,9 @@ int format_width(std::string_view text) {
     while (at < text.size() && (std::isdigit(static_cast<unsigned char>(text[at])) || text[at] == ' ')) ++at;
     if (at >= text.size() || std::string_view("fFeEgGiI").find(text[at]) == std::string_view::npos) continue;
     int width = 0;
-    if (std::from_chars(text.data() + at + 1, text.data() + text.size(), width).ec == std::errc{} && width > 0 && width <= 80) return width;
+    if (std::from_chars(text.data() + at + 1, text.data() + text.size(), width).ec == std::errc{} && width > 0 &&
+        width <= 80)
+      return width;
   }
   return 0;
 }

@@ -25,10 +25,10 @@ struct Record {
 
 // What is said about a file from outside. What a file says itself must not be contradicted.
 struct ReadOptions {
-  std::optional<double> dt;               // [s]
+  std::optional<double> dt;  // [s]
   std::optional<AccelerationUnit> unit;
-  std::optional<int> channel;             // from 1, of a file with several
-  std::string format;                     // name; empty: found from the name and the beginning of the file
+  std::optional<int> channel;  // from 1, of a file with several
+  std::string format;          // name; empty: found from the name and the beginning of the file
 };
 
 // A fault of a record: in its file at `at`, or, when at.line is 0, in what is said about the file.

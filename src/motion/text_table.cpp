@@ -15,7 +15,9 @@ constexpr std::size_t most_table_rows = 100000;
 
 AccelerationUnit unit_of(std::string_view text, int line) {
   const auto unit = parse_acceleration_unit(text);
-  if (!unit) throw RecordFault{line, 1, fmt::format("'{}' is no unit of acceleration; known: {}", text, known_acceleration_units())};
+  if (!unit)
+    throw RecordFault{line, 1,
+                      fmt::format("'{}' is no unit of acceleration; known: {}", text, known_acceleration_units())};
   return *unit;
 }
 
@@ -40,11 +42,13 @@ bool TextRows::heading(const std::vector<Token>& row) {
   if (name == "NAN" || name == "INF" || name == "INFINITY") return false;
   const std::string& line = lines_.line();
   std::vector<std::string_view> units;
-  for (std::size_t open = line.find_first_of("[("); open != std::string::npos; open = line.find_first_of("[(", open + 1)) {
+  for (std::size_t open = line.find_first_of("[("); open != std::string::npos;
+       open = line.find_first_of("[(", open + 1)) {
     const std::size_t close = line.find_first_of("])", open);
     if (close != std::string::npos) units.push_back(std::string_view(line).substr(open + 1, close - open - 1));
   }
-  if (units.size() > most_columns_) throw RecordFault{lines_.number(), 1, fmt::format("more than {} columns", most_columns_)};
+  if (units.size() > most_columns_)
+    throw RecordFault{lines_.number(), 1, fmt::format("more than {} columns", most_columns_)};
   if (units.size() == 2 && upper(trimmed(units.front())) != "S" && upper(trimmed(units.front())) != "SEC")
     throw RecordFault{lines_.number(), 1, fmt::format("times must be in s, not '{}'", units.front())};
   if (!units.empty()) unit_ = unit_of(units.back(), lines_.number());
@@ -83,8 +87,10 @@ bool TextRows::next() {
       first_line_ = lines_.number();
     }
     if (row.size() != columns_ || columns_ > most_columns_)
-      throw RecordFault{lines_.number(), 1, fmt::format("{} columns, must be {}", row.size(),
-                                                        columns_ > most_columns_ ? fmt::format("1 or {}", most_columns_) : fmt::format("{} as before", columns_))};
+      throw RecordFault{lines_.number(), 1,
+                        fmt::format("{} columns, must be {}", row.size(),
+                                    columns_ > most_columns_ ? fmt::format("1 or {}", most_columns_)
+                                                             : fmt::format("{} as before", columns_))};
     points_ = points_ || lines_.line().find_first_of(".eE") != std::string::npos;
     values_.clear();
     for (const Token& token : row) values_.push_back(number(token, lines_.number()));
@@ -94,20 +100,24 @@ bool TextRows::next() {
 }
 
 void TextRows::finish() const {
-  if (maybe_decimal_commas()) throw RecordFault{first_line_, 1, "commas between columns or decimal commas? write decimals with a point"};
+  if (maybe_decimal_commas())
+    throw RecordFault{first_line_, 1, "commas between columns or decimal commas? write decimals with a point"};
 }
 
 TextTable read_text_table(const std::filesystem::path& file, std::size_t columns) {
   std::ifstream stream(file, std::ios::binary);
   std::error_code ignored;
-  if (!stream || !std::filesystem::is_regular_file(file, ignored)) throw IoError(fmt::format("error: cannot open '{}'", file.string()));
+  if (!stream || !std::filesystem::is_regular_file(file, ignored))
+    throw IoError(fmt::format("error: cannot open '{}'", file.string()));
   try {
     LineReader lines(stream);
     TextRows rows(lines, columns);
     TextTable out;
     while (rows.next()) {
-      if (rows.columns() != columns) throw RecordFault{rows.line(), 1, fmt::format("{} columns, must be {}", rows.columns(), columns)};
-      if (out.rows.size() == most_table_rows) throw RecordFault{rows.line(), 1, fmt::format("more than {} rows", most_table_rows)};
+      if (rows.columns() != columns)
+        throw RecordFault{rows.line(), 1, fmt::format("{} columns, must be {}", rows.columns(), columns)};
+      if (out.rows.size() == most_table_rows)
+        throw RecordFault{rows.line(), 1, fmt::format("more than {} rows", most_table_rows)};
       out.rows.push_back({rows.line(), rows.values()});
     }
     rows.finish();

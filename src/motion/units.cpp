@@ -13,9 +13,12 @@ struct Entry {
   double si;  // [m/s2]
 };
 
-constexpr Entry entries[]{{AccelerationUnit::g, "g", 9.80665},        {AccelerationUnit::metres, "m/s2", 1},
-                          {AccelerationUnit::centimetres, "cm/s2", 1e-2}, {AccelerationUnit::millimetres, "mm/s2", 1e-3},
-                          {AccelerationUnit::inches, "in/s2", 0.0254},    {AccelerationUnit::feet, "ft/s2", 0.3048}};
+constexpr Entry entries[]{{AccelerationUnit::g, "g", 9.80665},
+                          {AccelerationUnit::metres, "m/s2", 1},
+                          {AccelerationUnit::centimetres, "cm/s2", 1e-2},
+                          {AccelerationUnit::millimetres, "mm/s2", 1e-3},
+                          {AccelerationUnit::inches, "in/s2", 0.0254},
+                          {AccelerationUnit::feet, "ft/s2", 0.3048}};
 
 const Entry& entry(AccelerationUnit unit) {
   return *std::find_if(std::begin(entries), std::end(entries), [&](const Entry& e) { return e.unit == unit; });

@@ -22,7 +22,8 @@ constexpr double reach = 2.6;            // of a wavelet, in its widths: exp(-re
 
 }  // namespace
 
-WaveletMatching::WaveletMatching(std::vector<double> periods, std::vector<double> wanted, double damping, double dt, std::size_t samples)
+WaveletMatching::WaveletMatching(std::vector<double> periods, std::vector<double> wanted, double damping, double dt,
+                                 std::size_t samples)
     : periods_(std::move(periods)), wanted_(std::move(wanted)), damping_(damping), dt_(dt) {
   std::vector<double> pulse(samples + 1);
   pulse[1] = 1;
@@ -45,18 +46,22 @@ std::vector<double> WaveletMatching::response(std::size_t oscillator, std::span<
 }
 
 // The largest first. Peaks between samples exceed those at samples, all by about the same factor.
-std::vector<WaveletMatching::Extreme> WaveletMatching::extremes(std::size_t oscillator, std::span<const double> a) const {
+std::vector<WaveletMatching::Extreme> WaveletMatching::extremes(std::size_t oscillator,
+                                                                std::span<const double> a) const {
   const std::vector<double> values = response(oscillator, a);
   std::vector<Extreme> out;
   for (std::size_t i = 1; i < values.size(); ++i) {
     const double size = std::abs(values[i]);
-    if (size >= std::abs(values[i - 1]) && (i + 1 == values.size() || size > std::abs(values[i + 1]))) out.push_back({oscillator, i, values[i]});
+    if (size >= std::abs(values[i - 1]) && (i + 1 == values.size() || size > std::abs(values[i + 1])))
+      out.push_back({oscillator, i, values[i]});
   }
-  std::sort(out.begin(), out.end(), [](const Extreme& x, const Extreme& y) { return std::abs(x.ratio) > std::abs(y.ratio); });
+  std::sort(out.begin(), out.end(),
+            [](const Extreme& x, const Extreme& y) { return std::abs(x.ratio) > std::abs(y.ratio); });
   if (out.empty()) return {{oscillator, 0, 0}};
   const double largest = std::abs(out.front().ratio);
   while (out.size() > most_watched || std::abs(out.back().ratio) < next_largest * largest) out.pop_back();
-  const double peak = spectral_displacement(a, dt_, {periods_[oscillator]}, {damping_, false}).front() * std::pow(2 * pi / periods_[oscillator], 2) / wanted_[oscillator];
+  const double peak = spectral_displacement(a, dt_, {periods_[oscillator]}, {damping_, false}).front() *
+                      std::pow(2 * pi / periods_[oscillator], 2) / wanted_[oscillator];
   for (Extreme& e : out) e.ratio *= peak / largest;
   return out;
 }
@@ -64,7 +69,8 @@ std::vector<WaveletMatching::Extreme> WaveletMatching::extremes(std::size_t osci
 // A cosine under a bell, placed so that the oscillator of its period responds most at that sample.
 WaveletMatching::Wavelet WaveletMatching::wavelet(const Extreme& at) const {
   const double period = periods_[at.oscillator], root = std::sqrt(1 - damping_ * damping_), w = 2 * pi / period * root;
-  const double width = 1.178 * std::pow(period, 0.93), centre = dt_ * static_cast<double>(at.sample) - std::atan2(root, damping_) / w;
+  const double width = 1.178 * std::pow(period, 0.93),
+               centre = dt_ * static_cast<double>(at.sample) - std::atan2(root, damping_) / w;
   Wavelet out;
   const double first = std::max(std::ceil((centre - reach * width) / dt_), 0.0), last = (centre + reach * width) / dt_;
   out.first = static_cast<std::size_t>(first);
@@ -85,7 +91,7 @@ double WaveletMatching::response(const Extreme& at, const Wavelet& wavelet) cons
 }
 
 std::vector<double> WaveletMatching::step(std::span<const double> a) const {
-  std::vector<Extreme> all;       // the largest of every oscillator, then the watched ones
+  std::vector<Extreme> all;  // the largest of every oscillator, then the watched ones
   std::vector<Extreme> watched;
   for (std::size_t k = 0; k < periods_.size(); ++k) {
     const std::vector<Extreme> found = extremes(k, a);

@@ -44,10 +44,14 @@ std::vector<std::string> texts(const Hdf5Id& root, const char* name, const std::
 FloorSpectraTable read_floor_spectra(const std::filesystem::path& file) {
   const QuietHdf5 quiet;
   std::error_code ignored;
-  if (!std::filesystem::is_regular_file(file, ignored)) throw IoError(fmt::format("error: there is no '{}': is this a folder of results?", file.string()));
+  if (!std::filesystem::is_regular_file(file, ignored))
+    throw IoError(fmt::format("error: there is no '{}': is this a folder of results?", file.string()));
   const Hdf5Id root(require(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), file, "the contents"), H5Fclose);
   if (H5Lexists(root, "/floor_spectra", H5P_DEFAULT) <= 0)
-    throw InputError(fmt::format("error: '{}' has no floor spectra: the scene must ask for them, output.floor_spectra = {{ nodes = [\"floors\"] }}", file.string()));
+    throw InputError(
+        fmt::format("error: '{}' has no floor spectra: the scene must ask for them, output.floor_spectra = {{ nodes = "
+                    "[\"floors\"] }}",
+                    file.string()));
   FloorSpectraTable out;
   const Hdf5Id group(require(H5Gopen2(root, "/floor_spectra", H5P_DEFAULT), file, "floor_spectra"), H5Gclose);
   const Hdf5Id damping(require(H5Aopen(group, "damping", H5P_DEFAULT), file, "the damping"), H5Aclose);
@@ -55,7 +59,8 @@ FloorSpectraTable read_floor_spectra(const std::filesystem::path& file) {
   out.nodes = texts(root, "/floor_spectra/node", file);
   out.periods = numbers(root, "/floor_spectra/period", file);
   out.displacement = numbers(root, "/floor_spectra/displacement", file);
-  if (out.displacement.size() != 3 * out.nodes.size() * out.periods.size()) throw IoError(fmt::format("error: the floor spectra of '{}' are incomplete", file.string()));
+  if (out.displacement.size() != 3 * out.nodes.size() * out.periods.size())
+    throw IoError(fmt::format("error: the floor spectra of '{}' are incomplete", file.string()));
   return out;
 }
 

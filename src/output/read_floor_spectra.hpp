@@ -13,7 +13,8 @@ struct FloorSpectraTable {
   std::vector<double> periods;       // [s]
   std::vector<double> displacement;  // largest, relative to the floor [m]: node by node, x y z, period by period
   std::vector<double> along(std::size_t node, int direction) const {
-    const auto first = displacement.begin() + static_cast<std::ptrdiff_t>((3 * node + static_cast<std::size_t>(direction)) * periods.size());
+    const auto first = displacement.begin() +
+                       static_cast<std::ptrdiff_t>((3 * node + static_cast<std::size_t>(direction)) * periods.size());
     return {first, first + static_cast<std::ptrdiff_t>(periods.size())};
   }
 };

@@ -14,14 +14,15 @@ namespace {
 
 constexpr std::size_t directions = 180;
 constexpr double pi = std::numbers::pi;
-constexpr double fine = 0.05;  // w times the distance of the places looked at: a peak between is missed by (fine / 2)^2 / 2
+constexpr double fine =
+    0.05;  // w times the distance of the places looked at: a peak between is missed by (fine / 2)^2 / 2
 
 struct Plane {
   double u, v;  // [m], [m/s]
 };
 
-// Largest |p . d| of points along each direction d of the half circle. Points are collected; those within the polygon of
-// the points that reach furthest along a few directions change nothing and are left out.
+// Largest |p . d| of points along each direction d of the half circle. Points are collected; those within the polygon
+// of the points that reach furthest along a few directions change nothing and are left out.
 class DirectionPeaks {
  public:
   DirectionPeaks() {
@@ -61,7 +62,8 @@ class DirectionPeaks {
     }
     outside_.assign(x_.size(), 0);
     for (std::size_t j = 0; j < corners; ++j)
-      for (std::size_t i = 0; i < x_.size(); ++i) outside_[i] = std::max(outside_[i], std::abs(nx[j] * x_[i] + ny[j] * y_[i]) - reach[j]);
+      for (std::size_t i = 0; i < x_.size(); ++i)
+        outside_[i] = std::max(outside_[i], std::abs(nx[j] * x_[i] + ny[j] * y_[i]) - reach[j]);
     for (std::size_t i = 0; i < x_.size(); ++i)
       if (outside_[i] > 0) compare(x_[i], y_[i]);
     for (std::size_t j = 0; j < corners; ++j) compare(corner_x_[j], corner_y_[j]);
@@ -98,12 +100,14 @@ Plane advanced(const OscillatorStep::Coefficients& c, const Plane& s, double a0,
 
 // Of the cubic with the values and slopes of both ends, at the fraction s between.
 double between(const Plane& from, const Plane& to, double h, double s) {
-  const double cubic = h * (from.v + to.v) - 2 * (to.u - from.u), square = 3 * (to.u - from.u) - h * (2 * from.v + to.v);
+  const double cubic = h * (from.v + to.v) - 2 * (to.u - from.u),
+               square = 3 * (to.u - from.u) - h * (2 * from.v + to.v);
   return from.u + s * (h * from.v + s * (square + s * cubic));
 }
 
 // One oscillator over the record and half a period after it.
-std::array<double, 2> peaks_of(std::span<const double> first, std::span<const double> second, double dt, double period, const SpectrumOptions& options) {
+std::array<double, 2> peaks_of(std::span<const double> first, std::span<const double> second, double dt, double period,
+                               const SpectrumOptions& options) {
   const OscillatorStep step({period}, options.damping, dt);
   const OscillatorStep::Coefficients c = step.coefficients(0);
   const double h = step.piece();
@@ -112,7 +116,8 @@ std::array<double, 2> peaks_of(std::span<const double> first, std::span<const do
   Plane x{0, 0}, y{0, 0};
   const auto advance = [&](double ax0, double ax1, double ay0, double ay1, bool keep) {
     const Plane x1 = advanced(c, x, ax0, ax1), y1 = advanced(c, y, ay0, ay1);
-    for (int i = 1; i < parts; ++i) peaks.add(between(x, x1, h, double(i) / parts), between(y, y1, h, double(i) / parts));
+    for (int i = 1; i < parts; ++i)
+      peaks.add(between(x, x1, h, double(i) / parts), between(y, y1, h, double(i) / parts));
     x = x1;
     y = y1;
     if (keep) peaks.add(x.u, y.u);
@@ -133,7 +138,8 @@ std::array<double, 2> peaks_of(std::span<const double> first, std::span<const do
 
 RotatedSpectrum rotated_spectrum(std::span<const double> first, std::span<const double> second, double dt,
                                  const std::vector<double>& periods, const SpectrumOptions& options) {
-  if (first.empty() || first.size() != second.size()) throw std::invalid_argument("two components need the same number of values");
+  if (first.empty() || first.size() != second.size())
+    throw std::invalid_argument("two components need the same number of values");
   RotatedSpectrum out;
   out.first = spectral_displacement(first, dt, periods, options);
   out.second = spectral_displacement(second, dt, periods, options);

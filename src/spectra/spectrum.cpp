@@ -46,8 +46,8 @@ SpectrumBlock block_of(const OscillatorStep& step, std::size_t count) {
 
 }  // namespace
 
-std::vector<double> spectral_displacement(std::span<const double> acceleration, double dt, const std::vector<double>& periods,
-                                          const SpectrumOptions& options) {
+std::vector<double> spectral_displacement(std::span<const double> acceleration, double dt,
+                                          const std::vector<double>& periods, const SpectrumOptions& options) {
   check(acceleration);
   std::vector<double> out;
   for (std::size_t first = 0; first < periods.size(); first += block_periods) {
@@ -55,13 +55,15 @@ std::vector<double> spectral_displacement(std::span<const double> acceleration, 
     SpectrumBlock block = block_of(OscillatorStep(some, options.damping, dt), some.size());
     run_block(block, acceleration, options.at_samples);
     for (std::size_t i = 0; i < some.size(); ++i)
-      out.push_back(options.at_samples ? block.peak[i] : std::max(block.peak[i], free_peak(block.u[i], block.v[i], some[i], options.damping)));
+      out.push_back(options.at_samples
+                        ? block.peak[i]
+                        : std::max(block.peak[i], free_peak(block.u[i], block.v[i], some[i], options.damping)));
   }
   return out;
 }
 
-std::vector<double> spectral_displacement_scalar(std::span<const double> acceleration, double dt, const std::vector<double>& periods,
-                                                 const SpectrumOptions& options) {
+std::vector<double> spectral_displacement_scalar(std::span<const double> acceleration, double dt,
+                                                 const std::vector<double>& periods, const SpectrumOptions& options) {
   check(acceleration);
   std::vector<double> out;
   for (std::size_t first = 0; first < periods.size(); first += block_periods) {
@@ -71,10 +73,12 @@ std::vector<double> spectral_displacement_scalar(std::span<const double> acceler
     std::vector<double> sampled(some.size());
     for (std::size_t i = 0; i + 1 < acceleration.size(); ++i) {
       oscillators.advance(step, acceleration[i], acceleration[i + 1]);
-      for (std::size_t k = 0; k < some.size(); ++k) sampled[k] = std::max(sampled[k], std::abs(oscillators.displacement()[k]));
+      for (std::size_t k = 0; k < some.size(); ++k)
+        sampled[k] = std::max(sampled[k], std::abs(oscillators.displacement()[k]));
     }
     for (std::size_t k = 0; k < some.size(); ++k) {
-      const double after = free_peak(oscillators.displacement()[k], oscillators.velocity()[k], some[k], options.damping);
+      const double after =
+          free_peak(oscillators.displacement()[k], oscillators.velocity()[k], some[k], options.damping);
       out.push_back(options.at_samples ? sampled[k] : std::max(oscillators.peak()[k], after));
     }
   }

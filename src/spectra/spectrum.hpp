@@ -1,5 +1,5 @@
-// Response spectra of whole records: oscillators at rest before the record, a base acceleration that is linear between its
-// samples and zero after the last one (theory.md, 120-122, 310-311). Arrays are by period.
+// Response spectra of whole records: oscillators at rest before the record, a base acceleration that is linear between
+// its samples and zero after the last one (theory.md, 120-122, 310-311). Arrays are by period.
 #pragma once
 
 #include <span>
@@ -15,11 +15,12 @@ struct SpectrumOptions {
 
 // Largest relative displacements [m] under accelerations [m/s2] each dt [s]. Periods of any order, all positive; throws
 // std::invalid_argument as OscillatorStep. Many periods at a time, by SIMD.
-std::vector<double> spectral_displacement(std::span<const double> acceleration, double dt, const std::vector<double>& periods,
-                                          const SpectrumOptions& options = {});
+std::vector<double> spectral_displacement(std::span<const double> acceleration, double dt,
+                                          const std::vector<double>& periods, const SpectrumOptions& options = {});
 
 // The same by Oscillators, one sample after the other: the definition that the former is tested against.
-std::vector<double> spectral_displacement_scalar(std::span<const double> acceleration, double dt, const std::vector<double>& periods,
+std::vector<double> spectral_displacement_scalar(std::span<const double> acceleration, double dt,
+                                                 const std::vector<double>& periods,
                                                  const SpectrumOptions& options = {});
 
 // Two horizontal components: the largest displacement along each of 180 directions a degree apart (Boore 2010, RotDnn).

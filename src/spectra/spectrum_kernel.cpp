@@ -1,5 +1,5 @@
-// The SIMD kernel of spectra, compiled for every instruction set and chosen at run time (Highway). Time is the inner loop, so
-// that two vectors of oscillators and their peaks stay in registers.
+// The SIMD kernel of spectra, compiled for every instruction set and chosen at run time (Highway). Time is the inner
+// loop, so that two vectors of oscillators and their peaks stay in registers.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "spectra/spectrum_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -23,8 +23,19 @@ using Vector = hn::Vec<Tag>;
 class Lanes {
  public:
   HWY_INLINE Lanes(SpectrumBlock& block, std::size_t first)
-      : first_(first), uu_(at(block.uu)), uv_(at(block.uv)), ua_(at(block.ua)), ub_(at(block.ub)), vu_(at(block.vu)), vv_(at(block.vv)),
-        va_(at(block.va)), vb_(at(block.vb)), u_(at(block.u)), v_(at(block.v)), peak_(at(block.peak)), h_(hn::Set(Tag(), block.piece)) {}
+      : first_(first),
+        uu_(at(block.uu)),
+        uv_(at(block.uv)),
+        ua_(at(block.ua)),
+        ub_(at(block.ub)),
+        vu_(at(block.vu)),
+        vv_(at(block.vv)),
+        va_(at(block.va)),
+        vb_(at(block.vb)),
+        u_(at(block.u)),
+        v_(at(block.v)),
+        peak_(at(block.peak)),
+        h_(hn::Set(Tag(), block.piece)) {}
 
   HWY_INLINE void store(SpectrumBlock& block) const {
     hn::Store(u_, Tag(), block.u + first_);
@@ -75,7 +86,8 @@ HWY_INLINE void run(SpectrumBlock& block, const double* acceleration, std::size_
     for (std::size_t i = 0; i + 1 < count; ++i) {
       const double start = acceleration[i], change = acceleration[i + 1] - start;
       for (int k = 0; k < block.pieces; ++k) {
-        const Vector a0 = hn::Set(Tag(), start + k * change / block.pieces), a1 = hn::Set(Tag(), start + (k + 1) * change / block.pieces);
+        const Vector a0 = hn::Set(Tag(), start + k * change / block.pieces),
+                     a1 = hn::Set(Tag(), start + (k + 1) * change / block.pieces);
         const bool at_end = k + 1 == block.pieces;
         one.template advance<between>(a0, a1, at_end);
         two.template advance<between>(a0, a1, at_end);

@@ -22,7 +22,8 @@ std::string escaped(const std::string& text) {
 }
 
 std::string line(double x1, double y1, double x2, double y2, const char* stroke) {
-  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n", x1, y1, x2, y2, stroke);
+  return fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\"/>\n", x1, y1, x2, y2,
+                     stroke);
 }
 
 std::string text(double x, double y, const char* anchor, const std::string& content) {
@@ -36,7 +37,8 @@ struct Tick {
 
 class Axis {
  public:
-  Axis(bool logarithmic, double least, double most) : log_(logarithmic) {
+  // `tight`: a linear axis ends where the data do.
+  Axis(bool logarithmic, bool tight, double least, double most) : log_(logarithmic) {
     if (log_) {
       first_ = std::floor(std::log10(least));
       last_ = std::max(std::ceil(std::log10(most)), first_ + 1);
@@ -51,6 +53,12 @@ class Axis {
     first_ = step_ * std::floor(least / step_ + 1e-9);
     last_ = step_ * std::ceil(most / step_ - 1e-9);
     if (!(last_ > first_)) last_ = first_ + step_;
+    tick_ = first_;
+    if (tight && most > least) {
+      first_ = least;
+      last_ = most;
+      tick_ = step_ * std::ceil(least / step_ - 1e-9);
+    }
   }
 
   double place(double value) const { return ((log_ ? std::log10(value) : value) - first_) / (last_ - first_); }
@@ -58,11 +66,12 @@ class Axis {
   std::vector<Tick> ticks() const {
     std::vector<Tick> out;
     if (!log_) {
-      for (int i = 0; first_ + i * step_ <= last_ + 1e-9 * step_; ++i) out.push_back({first_ + i * step_, true});
+      for (int i = 0; tick_ + i * step_ <= last_ + 1e-9 * step_; ++i) out.push_back({tick_ + i * step_, true});
       return out;
     }
     for (int decade = static_cast<int>(first_); decade <= static_cast<int>(last_); ++decade)
-      for (int k = 1; k <= (decade == static_cast<int>(last_) ? 1 : 9); ++k) out.push_back({k * std::pow(10.0, decade), k == 1});
+      for (int k = 1; k <= (decade == static_cast<int>(last_) ? 1 : 9); ++k)
+        out.push_back({k * std::pow(10.0, decade), k == 1});
     return out;
   }
 
@@ -73,12 +82,14 @@ class Axis {
 
  private:
   bool log_;
-  double first_ = 0, last_ = 1, step_ = 1;  // decades, or values
+  double first_ = 0, last_ = 1, step_ = 1, tick_ = 0;  // decades, or values; tick_: the first of a linear axis
 };
 
 std::string marker(std::size_t kind, double x, double y, const char* colour) {
   if (kind % 3 == 0) return fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4.5\" fill=\"{}\"/>\n", x, y, colour);
-  if (kind % 3 == 1) return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"8\" height=\"8\" fill=\"{}\"/>\n", x - 4, y - 4, colour);
+  if (kind % 3 == 1)
+    return fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"8\" height=\"8\" fill=\"{}\"/>\n", x - 4, y - 4,
+                       colour);
   return fmt::format("<path d=\"M{:.1f} {:.1f} l5 9 h-10 z\" fill=\"{}\"/>\n", x, y - 5, colour);
 }
 
@@ -86,12 +97,15 @@ std::string marker(std::size_t kind, double x, double y, const char* colour) {
 std::vector<std::size_t> drawn(const Chart& chart, const Curve& curve) {
   std::vector<std::size_t> valid, out;
   for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i)
-    if (std::isfinite(curve.y[i]) && (!chart.log_x || curve.x[i] > 0) && (!chart.log_y || curve.y[i] > 0)) valid.push_back(i);
+    if (std::isfinite(curve.y[i]) && (!chart.log_x || curve.x[i] > 0) && (!chart.log_y || curve.y[i] > 0))
+      valid.push_back(i);
   if (valid.size() <= most_points) return valid;
   const std::size_t group = 2 * (valid.size() / most_points + 1);
   for (std::size_t first = 0; first < valid.size(); first += group) {
-    const auto begin = valid.begin() + static_cast<std::ptrdiff_t>(first), end = valid.begin() + static_cast<std::ptrdiff_t>(std::min(first + group, valid.size()));
-    const auto [low, high] = std::minmax_element(begin, end, [&](std::size_t a, std::size_t b) { return curve.y[a] < curve.y[b]; });
+    const auto begin = valid.begin() + static_cast<std::ptrdiff_t>(first),
+               end = valid.begin() + static_cast<std::ptrdiff_t>(std::min(first + group, valid.size()));
+    const auto [low, high] =
+        std::minmax_element(begin, end, [&](std::size_t a, std::size_t b) { return curve.y[a] < curve.y[b]; });
     out.insert(out.end(), {std::min(*low, *high), std::max(*low, *high)});
   }
   return out;
@@ -106,13 +120,15 @@ std::string frame(const Chart& chart, const Axis& x, const Axis& y, double up) {
   }
   for (const Tick& tick : y.ticks()) {
     const double at = up + chart.height * (1 - y.place(tick.value));
-    if (tick.labelled) out += line(left, at, left + wide, at, "#dddddd") + text(left - 8, at + 5, "end", y.label(tick.value));
+    if (tick.labelled)
+      out += line(left, at, left + wide, at, "#dddddd") + text(left - 8, at + 5, "end", y.label(tick.value));
     out += line(left, at, left + (tick.labelled ? 8 : 4), at, "black");
   }
-  out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"black\"/>\n", left, up, wide, chart.height);
+  out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"black\"/>\n", left, up,
+                     wide, chart.height);
   out += text(left + wide / 2, up + chart.height + 48, "middle", escaped(chart.x_label));
-  out += fmt::format("<text transform=\"translate(22 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n", up + chart.height / 2,
-                     escaped(chart.y_label));
+  out += fmt::format("<text transform=\"translate(22 {:.1f}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
+                     up + chart.height / 2, escaped(chart.y_label));
   return out + text(left, up - 10, "start", escaped(chart.title));
 }
 
@@ -125,7 +141,7 @@ std::string curves_of(const Chart& chart, double up) {
     }
   }
   if (high[0] < low[0]) return {};
-  const Axis x(chart.log_x, low[0], high[0]), y(chart.log_y, low[1], high[1]);
+  const Axis x(chart.log_x, true, low[0], high[0]), y(chart.log_y, false, low[1], high[1]);
   std::string out = frame(chart, x, y, up);
   std::size_t kind = 0, row = 0;
   for (const Curve& curve : chart.curves) {
@@ -137,12 +153,15 @@ std::string curves_of(const Chart& chart, double up) {
       if (curve.markers) marks += marker(kind, px, py, colour);
     }
     const char* dash = curve.dashed ? " stroke-dasharray=\"7 4\"" : "";
-    out += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"{}/>\n{}", path, colour, dash, marks);
+    out += fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"{}/>\n{}", path, colour,
+                       dash, marks);
     if (!curve.name.empty()) {
       const double at = up + 14 + 22 * static_cast<double>(row++);
       out += curve.markers ? marker(kind, left + wide + 22, at - 5, colour)
-                           : fmt::format("<line x1=\"{0:.1f}\" y1=\"{2:.1f}\" x2=\"{1:.1f}\" y2=\"{2:.1f}\" stroke=\"{3}\" stroke-width=\"2\"{4}/>\n",
-                                         left + wide + 12, left + wide + 30, at - 5, colour, dash);
+                           : fmt::format(
+                                 "<line x1=\"{0:.1f}\" y1=\"{2:.1f}\" x2=\"{1:.1f}\" y2=\"{2:.1f}\" stroke=\"{3}\" "
+                                 "stroke-width=\"2\"{4}/>\n",
+                                 left + wide + 12, left + wide + 30, at - 5, colour, dash);
       out += text(left + wide + 34, at, "start", escaped(curve.name));
     }
     ++kind;
@@ -153,7 +172,7 @@ std::string curves_of(const Chart& chart, double up) {
 }  // namespace
 
 std::string chart_svg(const std::vector<Chart>& charts) {
-  std::size_t longest = 0;
+  std::size_t longest = 0, longest_title = 0;
   double up = top;
   std::string body;
   for (const Chart& chart : charts) {
@@ -161,12 +180,18 @@ std::string chart_svg(const std::vector<Chart>& charts) {
     if (curves.empty()) continue;
     body += curves;
     up += chart.height + top + below;
+    longest_title = std::max(longest_title, chart.title.size());
     for (const Curve& curve : chart.curves) longest = std::max(longest, curve.name.size());
   }
   if (body.empty()) return {};
-  const double width = left + wide + 60 + 7.5 * static_cast<double>(longest), height = up - top;
-  return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
-                     "font-family=\"sans-serif\" font-size=\"14\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n", width, height) +
+  const double width = std::max(left + wide + 60 + 7.5 * static_cast<double>(longest),
+                                left + 20 + 7.5 * static_cast<double>(longest_title)),
+               height = up - top;
+  return fmt::format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
+             "{1:.0f}\" "
+             "font-family=\"sans-serif\" font-size=\"14\">\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
+             width, height) +
          body + "</svg>\n";
 }
 

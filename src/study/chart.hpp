@@ -7,8 +7,8 @@
 namespace nsframe {
 
 struct Curve {
-  std::string name;         // empty: not in the legend
-  std::vector<double> x, y; // on a logarithmic axis only what is positive is drawn
+  std::string name;          // empty: not in the legend
+  std::vector<double> x, y;  // on a logarithmic axis only what is positive is drawn
   bool markers = false, dashed = false;
 };
 
@@ -16,7 +16,7 @@ struct Chart {
   std::string title, x_label, y_label;
   bool log_x = false, log_y = false;
   std::vector<Curve> curves;
-  double height = 380;      // of the frame, in pixels
+  double height = 380;  // of the frame, in pixels
 };
 
 // Empty when no chart has a point to draw.

@@ -17,7 +17,8 @@ namespace {
 
 std::vector<double> sine(double amplitude, double frequency, double dt, double duration) {
   std::vector<double> out;
-  for (int i = 0; i * dt <= duration * (1 + 1e-12); ++i) out.push_back(amplitude * std::sin(2 * pi * frequency * i * dt));
+  for (int i = 0; i * dt <= duration * (1 + 1e-12); ++i)
+    out.push_back(amplitude * std::sin(2 * pi * frequency * i * dt));
   return out;
 }
 
@@ -30,8 +31,8 @@ TEST_CASE("the measures of a sine are its closed forms") {
   const MotionMeasures m = measure(sine(A, f, dt, 10), dt);  // five periods: at rest again
   CHECK(off(m.acceleration.value, A) < 1e-6);
   CHECK(m.acceleration.time == doctest::Approx(0.5));
-  CHECK(off(m.velocity.value, 2 * A / w) < 1e-5);               // chords for arcs: (w dt)^2 / 12
-  CHECK(off(m.displacement.value, A / w * 10) < 1e-5);          // drift of velocity A / w
+  CHECK(off(m.velocity.value, 2 * A / w) < 1e-5);       // chords for arcs: (w dt)^2 / 12
+  CHECK(off(m.displacement.value, A / w * 10) < 1e-5);  // drift of velocity A / w
   CHECK(std::abs(m.final_velocity) < 1e-12);
   CHECK(off(m.arias, pi / (2 * 9.80665) * A * A / 2 * 10) < 1e-5);
   CHECK(m.significant_95() == doctest::Approx(9).epsilon(5e-3));  // nearly uniform: within a fortieth of a period each
@@ -77,13 +78,29 @@ TEST_CASE("pads hold what the filter brings before the record, and wrong corners
   const Filtered f = band_passed(pulse, 0.01, {0.5, 0, 2, true});
   REQUIRE(f.begins < 0);
   const auto middle = static_cast<std::size_t>(std::lround(-f.begins / 0.01)) + 200;
-  for (std::size_t k = 1; k < 700; ++k) CHECK(f.acceleration[middle - k] == doctest::Approx(f.acceleration[middle + k]).scale(1e-3).epsilon(1e-2));
-  CHECK(measure(f.acceleration, 0.01).final_displacement == doctest::Approx(0).epsilon(1e-4));  // no content at zero frequency
-  for (const BandPass& wrong : {BandPass{0, 0, 4, false}, {1, 0.5, 4, false}, {0, 60, 4, false}, {0.1, 0, 0, false}, {0.1, 0, 11, false}, {-1, 0, 4, false}})
+  for (std::size_t k = 1; k < 700; ++k)
+    CHECK(f.acceleration[middle - k] == doctest::Approx(f.acceleration[middle + k]).scale(1e-3).epsilon(1e-2));
+  const Filtered cut = band_passed(pulse, 0.01, {0.5, 0, 2, false});
+  CHECK(cut.begins == 0);
+  CHECK(cut.acceleration[200] == f.acceleration[middle]);
+  const GroundHistory whole = integrate(f.acceleration, 0.01);
+  CHECK(cut.velocity == whole.velocity[middle - 200]);
+  CHECK(cut.displacement == whole.displacement[middle - 200]);
+  CHECK(cut.velocity != 0);
+  CHECK(measure(f.acceleration, 0.01).final_displacement ==
+        doctest::Approx(0).epsilon(1e-4));  // no content at zero frequency
+  for (const BandPass& wrong : {BandPass{0, 0, 4, false},
+                                {1, 0.5, 4, false},
+                                {0, 60, 4, false},
+                                {0.1, 0, 0, false},
+                                {0.1, 0, 11, false},
+                                {-1, 0, 4, false}})
     CHECK_THROWS_AS(band_passed(pulse, 0.01, wrong), std::invalid_argument);
 }
 
-TEST_CASE("a baseline of its degree takes a polynomial out of a record, and the one found has the least squares of velocity") {
+TEST_CASE(
+    "a baseline of its degree takes a polynomial out of a record, and the one found has the least squares of "
+    "velocity") {
   const double dt = 0.01;
   std::vector<double> a = sine(2, 1.7, dt, 20);
   const std::vector<double> clean = baseline_corrected(a, dt, 2);
@@ -104,7 +121,8 @@ TEST_CASE("a baseline of its degree takes a polynomial out of a record, and the 
   for (const int power : {0, 1, 2}) {
     for (const double change : {-1e-3, 1e-3}) {
       std::vector<double> other = found;
-      for (std::size_t i = 0; i < a.size(); ++i) other[i] += change * std::pow(static_cast<double>(i) / static_cast<double>(a.size() - 1), power);
+      for (std::size_t i = 0; i < a.size(); ++i)
+        other[i] += change * std::pow(static_cast<double>(i) / static_cast<double>(a.size() - 1), power);
       CHECK(squares(other) > squares(found));
     }
   }

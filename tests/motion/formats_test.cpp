@@ -96,7 +96,8 @@ TEST_CASE("an AT2 record that holds fewer or more values than it says is an erro
 }
 
 TEST_CASE("an AT2 record with a bad header is an error") {
-  CHECK(at2("NPTS= 0, DT= .01 SEC", "").error == "a.at2:4:1: error: NPTS = 0, must be a whole number from 1 to 10000000");
+  CHECK(at2("NPTS= 0, DT= .01 SEC", "").error ==
+        "a.at2:4:1: error: NPTS = 0, must be a whole number from 1 to 10000000");
   CHECK(at2("NPTS= 1e12, DT= .01 SEC", "1").error ==
         "a.at2:4:1: error: NPTS = 1000000000000, must be a whole number from 1 to 10000000");
   CHECK(at2("NPTS= 3, DT= -1 SEC", "").error == "a.at2:4:1: error: DT = -1, must be positive");
@@ -123,7 +124,8 @@ TEST_CASE("an empty or binary file is an error") {
   CHECK(read("a.txt", "", in_g).error == "a.txt:1:1: error: holds no values");
   CHECK(read("a.txt", "# nothing\n\n", in_g).error == "a.txt:2:1: error: holds no values");
   CHECK(read("a.txt", std::string_view("1\n\0\1\2", 5), in_g).error == "a.txt:2:1: error: is a binary file, not text");
-  CHECK(read("a.txt", std::string(100000, '1'), in_g).error == "a.txt:1:1: error: the line is longer than 65536 characters");
+  CHECK(read("a.txt", std::string(100000, '1'), in_g).error ==
+        "a.txt:1:1: error: the line is longer than 65536 characters");
   CHECK_THROWS_AS(read_record("/nowhere/none.at2"), IoError);
   CHECK_THROWS_AS(read_record("/"), IoError);  // a directory
 }
@@ -199,9 +201,11 @@ TEST_CASE("decimal commas are found out, not read as columns") {
 
 TEST_CASE("plain text that leaves its step or unit open is an error that says how to declare them") {
   CHECK(read("a.txt", "1\n2\n", {{}, AccelerationUnit::g, {}, ""}).error ==
-        "error: 'a.txt' (plain text or CSV) doesn't say its step, which must be given: dt = \"...\" in a scene, --dt on the command line");
+        "error: 'a.txt' (plain text or CSV) doesn't say its step, which must be given: dt = \"...\" in a scene, --dt "
+        "on the command line");
   CHECK(read("a.txt", "1\n2\n", {0.1, {}, {}, ""}).error ==
-        "error: 'a.txt' (plain text or CSV) doesn't say its unit, which must be given: unit = \"...\" in a scene, --unit on the command "
+        "error: 'a.txt' (plain text or CSV) doesn't say its unit, which must be given: unit = \"...\" in a scene, "
+        "--unit on the command "
         "line; one of g, m/s2, cm/s2, mm/s2, in/s2, ft/s2");
   CHECK(read("a.at2", "NPTS= 1, DT= .01\n1\n", {0.1, {}, {}, ""}).error ==
         "error: an AT2 record says its own step, dt must not be given");
@@ -245,7 +249,8 @@ TEST_CASE("the sample of every format gives the values of the record that it was
     double offset, rounding, factor;  // [m/s2], [m/s2]: half a unit of the last digit
   };
   for (const auto& [file, format, options, offset, rounding, factor] :
-       {Sample{"el_centro.V2c", "cosmos", {{}, {}, 1, ""}, 0, 0.5e-7, 1}, Sample{"el_centro.V2c", "cosmos", {{}, {}, 2, ""}, 0, 0.5e-7, 0.5},
+       {Sample{"el_centro.V2c", "cosmos", {{}, {}, 1, ""}, 0, 0.5e-7, 1},
+        Sample{"el_centro.V2c", "cosmos", {{}, {}, 2, ""}, 0, 0.5e-7, 0.5},
         Sample{"el_centro.V2", "csmip", {}, 0, 0.5e-5, 1}, Sample{"el_centro.esm.asc", "esm", {}, 0, 0.5e-8, 1},
         Sample{"el_centro.NS", "k-net", {}, -mean, 2.4e-6, 1}, Sample{"el_centro.csv", "text", {}, 0, 0.5e-6, 1},
         Sample{"el_centro.txt", "text", {0.02, {}, {}, ""}, 0, 1e-15, 1}}) {
@@ -255,7 +260,8 @@ TEST_CASE("the sample of every format gives the values of the record that it was
     CHECK(record.dt == doctest::Approx(0.02).epsilon(1e-12));
     REQUIRE(record.acceleration.size() == 400);
     double worst = 0;
-    for (std::size_t i = 0; i < 400; ++i) worst = std::max(worst, std::abs(record.acceleration[i] - factor * wanted[i] - offset));
+    for (std::size_t i = 0; i < 400; ++i)
+      worst = std::max(worst, std::abs(record.acceleration[i] - factor * wanted[i] - offset));
     CHECK(worst < 1.001 * rounding);
   }
   const Record knet = read_record(std::filesystem::path(samples) / "el_centro.NS");
@@ -272,7 +278,8 @@ TEST_CASE("a file with several channels is read by the number of the channel onl
 }
 
 TEST_CASE("truncated and contradictory files of every format are errors with their place") {
-  const auto changed = [&](const char* file, const std::string& from, const std::string& to, const ReadOptions& options = {}) {
+  const auto changed = [&](const char* file, const std::string& from, const std::string& to,
+                           const ReadOptions& options = {}) {
     std::string text = test::file_text(std::filesystem::path(samples) / file);
     const std::size_t at = text.find(from);
     REQUIRE(at != std::string::npos);
@@ -281,25 +288,33 @@ TEST_CASE("truncated and contradictory files of every format are errors with the
   };
   CHECK(changed("el_centro.NS", "Scale Factor      2000(gal)", "Scale Factor      2000(kine)") ==
         "el_centro.NS:14:1: error: the scale factor must be written as 3920(gal)/6182761");
-  CHECK(changed("el_centro.NS", "Sampling Freq(Hz)", "Sampling Rate    ") == "el_centro.NS:17:1: error: the header has no 'Sampling Freq(Hz)'");
-  CHECK(changed("el_centro.NS", "Duration Time(s)  8", "Duration Time(s)  9") == "el_centro.NS:67:1: error: ends after 400 of 450 values");
-  CHECK(changed("el_centro.NS", "Duration Time(s)  8", "Duration Time(s)  7") == "el_centro.NS:61:59: error: more values than 350");
+  CHECK(changed("el_centro.NS", "Sampling Freq(Hz)", "Sampling Rate    ") ==
+        "el_centro.NS:17:1: error: the header has no 'Sampling Freq(Hz)'");
+  CHECK(changed("el_centro.NS", "Duration Time(s)  8", "Duration Time(s)  9") ==
+        "el_centro.NS:67:1: error: ends after 400 of 450 values");
+  CHECK(changed("el_centro.NS", "Duration Time(s)  8", "Duration Time(s)  7") ==
+        "el_centro.NS:61:59: error: more values than 350");
   CHECK(changed("el_centro.NS", "Memo.", "") == "el_centro.NS:16:1: error: ends within the 17 lines of the header");
-  CHECK(changed("el_centro.esm.asc", "NDATA: 400", "NDATA: 401") == "el_centro.esm.asc:415:1: error: ends after 400 of 401 values");
-  CHECK(changed("el_centro.esm.asc", "NDATA: 400", "NDATA: 399") == "el_centro.esm.asc:415:1: error: more values than NDATA = 399");
+  CHECK(changed("el_centro.esm.asc", "NDATA: 400", "NDATA: 401") ==
+        "el_centro.esm.asc:415:1: error: ends after 400 of 401 values");
+  CHECK(changed("el_centro.esm.asc", "NDATA: 400", "NDATA: 399") ==
+        "el_centro.esm.asc:415:1: error: more values than NDATA = 399");
   CHECK(changed("el_centro.esm.asc", "DATA_TYPE: ACC", "DATA_TYPE: RAW ACC") == "");
   CHECK(changed("el_centro.esm.asc", "DATA_TYPE: ACCELERATION", "DATA_TYPE: VELOCITY") ==
         "el_centro.esm.asc:14:1: error: is not an acceleration record: DATA_TYPE is VELOCITY");
-  CHECK(changed("el_centro.esm.asc", "UNITS: cm/s^2", "UNITS: counts") ==
-        "el_centro.esm.asc:10:1: error: 'counts' is no unit of acceleration; known: g, m/s2, cm/s2, mm/s2, in/s2, ft/s2");
-  CHECK(changed("el_centro.V2", "400 points of accel", "401 points of accel") == "el_centro.V2:97:4: error: '400 poi' is not a number");
+  CHECK(
+      changed("el_centro.esm.asc", "UNITS: cm/s^2", "UNITS: counts") ==
+      "el_centro.esm.asc:10:1: error: 'counts' is no unit of acceleration; known: g, m/s2, cm/s2, mm/s2, in/s2, ft/s2");
+  CHECK(changed("el_centro.V2", "400 points of accel", "401 points of accel") ==
+        "el_centro.V2:97:4: error: '400 poi' is not a number");
   CHECK(changed("el_centro.V2", "in cm/sec2.", "in counts. ").find("doesn't say its unit") != std::string::npos);
   CHECK(changed("el_centro.V2", "  400 points of accel", "") == "el_centro.V2:46:1: error: holds no accelerations");
   CHECK(read("el_centro.V2", test::file_text(std::filesystem::path(samples) / "el_centro.V2").substr(0, 3000)).error ==
         "el_centro.V2:62:1: error: ends after 123 of 400 values");
   CHECK(changed("el_centro.V2c", "units=cm/sec2", "units=counts ", {{}, {}, 1, ""}) ==
         "el_centro.V2c:37:1: error: 'counts' is no unit of acceleration; known: g, m/s2, cm/s2, mm/s2, in/s2, ft/s2");
-  CHECK(changed("el_centro.V2c", "    20.000000", "    10.000000", {{}, {}, 1, ""}).find("two sampling intervals") != std::string::npos);
+  CHECK(changed("el_centro.V2c", "    20.000000", "    10.000000", {{}, {}, 1, ""}).find("two sampling intervals") !=
+        std::string::npos);
 }
 
 TEST_CASE("records of the usual archives are read with their length, step and peak") {

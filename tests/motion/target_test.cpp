@@ -17,8 +17,8 @@ using namespace nsframe;
 
 namespace {
 
-// Largest pseudo-acceleration by Newmark's average acceleration on the record's straight lines, `parts` steps a sample: another
-// method than that of the program, with an error of (w h)^2 / 12 of the period.
+// Largest pseudo-acceleration by Newmark's average acceleration on the record's straight lines, `parts` steps a sample:
+// another method than that of the program, with an error of (w h)^2 / 12 of the period.
 double newmark(const std::vector<double>& a, double dt, double period, double xi) {
   const double w = 2 * pi / period;
   const int parts = static_cast<int>(std::ceil(60 * dt * w));
@@ -68,12 +68,15 @@ TEST_CASE("the spectrum of ASCE 7 has the values of its four branches") {
 
 TEST_CASE("a table is linear between its rows, and its faults have their lines") {
   const test::TemporaryFolder folder;
-  const auto read = [&](const char* text, std::optional<AccelerationUnit> unit = {}) { return target_table(folder.write("t.csv", text), unit, 0.05); };
+  const auto read = [&](const char* text, std::optional<AccelerationUnit> unit = {}) {
+    return target_table(folder.write("t.csv", text), unit, 0.05);
+  };
   const TargetSpectrum t = read("period [s], PSA [g]\n0, 0.4\n0.2, 1.0\n1, 0.5\n");
   CHECK(t.acceleration(0.1) == doctest::Approx(0.7 * 9.80665));
   CHECK(t.acceleration(1) == doctest::Approx(0.5 * 9.80665));
   CHECK(t.longest == 1);
-  CHECK_THROWS_WITH_AS(check_range(t, 0.1, 2), "error: periods from 0.1 to 2 s, but t.csv is given from 0 to 1 s", InputError);
+  CHECK_THROWS_WITH_AS(check_range(t, 0.1, 2), "error: periods from 0.1 to 2 s, but t.csv is given from 0 to 1 s",
+                       InputError);
   const auto message = [&](const char* text) {
     try {
       read(text, AccelerationUnit::g);
@@ -95,8 +98,9 @@ TEST_CASE("artificial motions match their targets within 10 % from 0.2 T to 2 T,
     double period;  // T [s]
     std::uint32_t seed;
   };
-  for (const auto& [target, period, seed] : {Case{eurocode8({1, 'B', 3, 0.05}), 0.5, 1}, Case{eurocode8({2, 'D', 1, 0.05}), 0.25, 2},
-                                             Case{asce7({9.81, 5.9, 8}), 0.8, 3}}) {
+  for (const auto& [target, period, seed] :
+       {Case{eurocode8({1, 'B', 3, 0.05}), 0.5, 1}, Case{eurocode8({2, 'D', 1, 0.05}), 0.25, 2},
+        Case{asce7({9.81, 5.9, 8}), 0.8, 3}}) {
     CAPTURE(target.name);
     ArtificialOptions options;
     options.shortest = 0.2 * period;
@@ -129,10 +133,14 @@ TEST_CASE("artificial motions refuse what they cannot do") {
     change(changed);
     return changed;
   };
-  CHECK_THROWS_WITH_AS(artificial_motion(target, with([](auto& o) { o.dt = 0.02; })), "error: periods from 0.1 s need a step of 0.0125 s or less", InputError);
-  CHECK_THROWS_WITH_AS(artificial_motion(target, with([](auto& o) { o.longest = 3.9, o.duration = 7, o.envelope.level = 2; })),
-                       "error: periods to 3.9 s need a duration of 7.8 s or more", InputError);
+  CHECK_THROWS_WITH_AS(artificial_motion(target, with([](auto& o) { o.dt = 0.02; })),
+                       "error: periods from 0.1 s need a step of 0.0125 s or less", InputError);
+  CHECK_THROWS_WITH_AS(
+      artificial_motion(target, with([](auto& o) { o.longest = 3.9, o.duration = 7, o.envelope.level = 2; })),
+      "error: periods to 3.9 s need a duration of 7.8 s or more", InputError);
   CHECK_THROWS_AS(artificial_motion(target, with([](auto& o) { o.longest = 5; })), InputError);
   CHECK_THROWS_AS(artificial_motion(target, with([](auto& o) { o.envelope.level = 30; })), InputError);
-  CHECK_THROWS_AS(artificial_motion(target, with([](auto& o) { o.tolerance = 1e-4, o.max_iterations = 2, o.max_draws = 2; })), ConvergenceError);
+  CHECK_THROWS_AS(
+      artificial_motion(target, with([](auto& o) { o.tolerance = 1e-4, o.max_iterations = 2, o.max_draws = 2; })),
+      ConvergenceError);
 }

@@ -1,5 +1,5 @@
-// Spectra of records: the SIMD kernel against its scalar definition, closed forms, published values; RotDnn by rotation of
-// the records themselves.
+// Spectra of records: the SIMD kernel against its scalar definition, closed forms, published values; RotDnn by rotation
+// of the records themselves.
 #include "spectra/spectrum.hpp"
 
 #include <doctest/doctest.h>
@@ -20,7 +20,8 @@ std::vector<double> noise(unsigned seed, std::size_t count) {
   std::mt19937 generator(seed);
   std::vector<double> out;
   double value = 0;
-  for (std::size_t i = 0; i < count; ++i) out.push_back(value = 0.9 * value + (static_cast<double>(generator()) / 4294967295.0 - 0.5));
+  for (std::size_t i = 0; i < count; ++i)
+    out.push_back(value = 0.9 * value + (static_cast<double>(generator()) / 4294967295.0 - 0.5));
   return out;
 }
 
@@ -75,20 +76,28 @@ TEST_CASE("the peak after the end of a record counts: a short push throws the os
   }
 }
 
-TEST_CASE("El Centro 1940 has the displacements printed by Chopra, section 6.4, and the accelerations of another program") {
+TEST_CASE(
+    "El Centro 1940 has the displacements printed by Chopra, section 6.4, and the accelerations of another program") {
   struct Printed {
     double period, damping, displacement;  // [s], [-], [in]
   };
-  for (const auto& [period, damping, printed] : {Printed{0.5, 0.02, 2.67}, {1, 0.02, 5.97}, {2, 0.02, 7.47}, {2, 0, 9.91}, {2, 0.05, 5.37}}) {
-    const double found = spectral_displacement(el_centro().acceleration, 0.02, {period}, {damping, true}).front() / 0.0254;
-    CHECK(std::abs(found * 386.4 / 386.0886 - printed) < 0.0101);  // the book's g in in/s2; it cuts the last digit, 2.676 to 2.67
-    const double peak = spectral_displacement(el_centro().acceleration, 0.02, {period}, {damping, false}).front() / 0.0254;
+  for (const auto& [period, damping, printed] :
+       {Printed{0.5, 0.02, 2.67}, {1, 0.02, 5.97}, {2, 0.02, 7.47}, {2, 0, 9.91}, {2, 0.05, 5.37}}) {
+    const double found =
+        spectral_displacement(el_centro().acceleration, 0.02, {period}, {damping, true}).front() / 0.0254;
+    CHECK(std::abs(found * 386.4 / 386.0886 - printed) <
+          0.0101);  // the book's g in in/s2; it cuts the last digit, 2.676 to 2.67
+    const double peak =
+        spectral_displacement(el_centro().acceleration, 0.02, {period}, {damping, false}).front() / 0.0254;
     CHECK(peak >= found);
     CHECK(peak < 1.008 * found);  // between samples of w h / 2 <= 0.126: (w h / 2)^2 / 2
   }
-  const std::vector<double> periods{0.1, 0.15, 0.29, 0.5, 1, 2}, printed{0.6075, 0.7371, 0.7639, 0.9160, 0.4541, 0.1373};  // [g], 5 %
-  const auto psa = pseudo_acceleration(periods, spectral_displacement(el_centro().acceleration, 0.02, periods, {0.05, true}));
-  for (std::size_t i = 0; i < periods.size(); ++i) CHECK(std::abs(psa[i] / 9.80665 - printed[i]) < 0.51e-4);  // last digit
+  const std::vector<double> periods{0.1, 0.15, 0.29, 0.5, 1, 2},
+      printed{0.6075, 0.7371, 0.7639, 0.9160, 0.4541, 0.1373};  // [g], 5 %
+  const auto psa =
+      pseudo_acceleration(periods, spectral_displacement(el_centro().acceleration, 0.02, periods, {0.05, true}));
+  for (std::size_t i = 0; i < periods.size(); ++i)
+    CHECK(std::abs(psa[i] / 9.80665 - printed[i]) < 0.51e-4);  // last digit
 }
 
 TEST_CASE("RotD of one component alone is its spectrum times the median and the largest cosine") {
@@ -123,5 +132,6 @@ TEST_CASE("RotD is found by rotating the records themselves") {
 TEST_CASE("spectra without values, or of components of different length, are refused") {
   CHECK_THROWS_AS(spectral_displacement({}, 0.01, {1}), std::invalid_argument);
   CHECK_THROWS_AS(spectral_displacement(std::vector<double>{1, 2}, 0.01, {-1}), std::invalid_argument);
-  CHECK_THROWS_AS(rotated_spectrum(std::vector<double>{1, 2}, std::vector<double>{1}, 0.01, {1}), std::invalid_argument);
+  CHECK_THROWS_AS(rotated_spectrum(std::vector<double>{1, 2}, std::vector<double>{1}, 0.01, {1}),
+                  std::invalid_argument);
 }
