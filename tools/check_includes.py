@@ -2,8 +2,8 @@
 """Checks that includes are written from the root and point one way only:
 
     base <- materials <- elements <- models <- assembly <- integrators <- app
-    contact: base, models/contacts.hpp     modal: base     spectra: base     integrators: also contact
-    scene: base .. models     output: base .. models, spectra     study: base .. models     app, tests, bench: anything
+    contact: base, models/contacts.hpp     modal: base     spectra: base     motion: base, spectra     integrators: also contact
+    scene: base .. models, motion     output: base .. models, spectra     study: base .. models     app, tests, bench: anything
 
 A test or a bench may also name a helper in its own folder without a path.
 
@@ -21,7 +21,8 @@ ALLOWED["assembly"] |= {"modal"}
 ALLOWED["integrators"] |= {"contact", "modal"}
 ALLOWED["contact"] = {"base", "contact", "models/contacts.hpp"}
 ALLOWED["modal"] = {"base", "modal"}
-ALLOWED["scene"] = set(CHAIN[:4]) | {"scene"}
+ALLOWED["motion"] = {"base", "motion", "spectra"}
+ALLOWED["scene"] = set(CHAIN[:4]) | {"motion", "scene"}
 ALLOWED["spectra"] = {"base", "spectra"}
 ALLOWED["study"] = set(CHAIN[:4]) | {"study"}
 ALLOWED["output"] = set(CHAIN[:4]) | {"output", "spectra"}

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "app/commands.hpp"
+#include "app/motion.hpp"
 #include "app/section.hpp"
 #include "app/study.hpp"
 #include "base/errors.hpp"
@@ -115,6 +116,8 @@ int program(int count, char** values) {
   add_section_command(program, section_arguments, command);
   StudyArguments study_arguments;
   add_study_command(program, study_arguments, command);
+  add_motion_command(program, command);
+  add_spectrum_command(program, command);
   program.add_subcommand("reference", "print the scene reference (docs/scene-reference.md)")->callback([&] {
     command = reference;
   });

@@ -3,16 +3,29 @@
 #include <algorithm>
 #include <cmath>
 
+#include "motion/record.hpp"
 #include "scene/describe_stage.hpp"
-#include "scene/motion_file.hpp"
 
 namespace nsframe {
 
 namespace {
 
+// What is wrong with the file is reported at its line, what is wrong with what the scene says of it at the motion.
+std::optional<Record> read(const MotionTable& motion, const std::filesystem::path& directory, Diagnostics& diagnostics) {
+  if (motion.file.name.empty()) return std::nullopt;  // reported by the reader
+  try {
+    return read_record(directory / motion.file.name, {motion.dt, motion.unit, motion.channel, motion.format ? motion.format->name : ""});
+  } catch (const RecordError& fault) {
+    diagnostics.error(fault.at.line > 0 ? fault.at : motion.file.at, fault.text);
+  } catch (const IoError&) {
+    diagnostics.error(motion.file.at, "cannot open the record '" + (directory / motion.file.name).string() + "'");
+  }
+  return std::nullopt;
+}
+
 std::optional<MotionDescription> describe(const MotionTable& motion, const std::filesystem::path& directory,
                                           Diagnostics& diagnostics) {
-  const auto record = read_record(motion, directory, diagnostics);
+  const auto record = read(motion, directory, diagnostics);
   if (!record) return std::nullopt;
   double factor = motion.factor.value_or(1);
   if (motion.pga) {

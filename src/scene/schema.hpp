@@ -65,10 +65,21 @@ void visit(Archive& ar, GravityTable& g) {
 template <class Archive>
 void visit(Archive& ar, MotionTable& m) {
   ar(required("file",
-              "PEER AT2, or text with one column (give `dt`) or two (time, acceleration); relative to the scene"),
+              "record: PEER AT2, COSMOS, CSMIP V2, ESM, K-NET, or text and CSV with one column or two (time, acceleration); relative to the scene"),
      m.file);
-  ar(Field{"dt", "step of a one-column file", dimension::time, range::positive}, m.dt);
-  ar(Field{.key = "unit", .text = "of the numbers in the file", .default_text = "AT2: \"g\"; text must say"}, m.unit);
+  ar(Field{.key = "dt",
+           .text = "step of a one-column file",
+           .dimension = dimension::time,
+           .range = range::positive,
+           .default_text = "as the file says"},
+     m.dt);
+  ar(Field{.key = "unit", .text = "of the numbers in the file", .default_text = "as the file says"}, m.unit);
+  ar(Field{.key = "channel",
+           .text = "of a COSMOS or CSMIP file with several channels of acceleration, in their order",
+           .range = range::at_least_one,
+           .default_text = "the only one"},
+     m.channel);
+  ar(Field{.key = "format", .text = "`at2`, `k-net`, `esm`, `cosmos`, `csmip` or `text`", .default_text = "found from the file"}, m.format);
   ar(Field{.key = "pga",
            .text = "peak to scale the record to",
            .dimension = dimension::acceleration,

@@ -47,8 +47,13 @@ constexpr auto names_of(DampingKind) {
   return Names<DampingKind, 3>{
       {{"none", DampingKind::none}, {"modal", DampingKind::modal}, {"rayleigh", DampingKind::rayleigh}}};
 }
-constexpr auto names_of(MotionUnit) {
-  return Names<MotionUnit, 2>{{{"g", MotionUnit::g}, {"m/s2", MotionUnit::metres}}};
+constexpr auto names_of(AccelerationUnit) {
+  return Names<AccelerationUnit, 6>{{{"g", AccelerationUnit::g},
+                                     {"m/s2", AccelerationUnit::metres},
+                                     {"cm/s2", AccelerationUnit::centimetres},
+                                     {"mm/s2", AccelerationUnit::millimetres},
+                                     {"in/s2", AccelerationUnit::inches},
+                                     {"ft/s2", AccelerationUnit::feet}}};
 }
 constexpr auto names_of(ArcKind) {
   return Names<ArcKind, 2>{{{"spherical", ArcKind::spherical}, {"cylindrical", ArcKind::cylindrical}}};

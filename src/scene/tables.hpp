@@ -11,6 +11,7 @@
 #include "models/description.hpp"
 #include "models/dof_names.hpp"
 #include "models/story_frame.hpp"
+#include "motion/units.hpp"
 #include "scene/gravity_table.hpp"
 #include "scene/quantity.hpp"
 #include "scene/sections/sections.hpp"
@@ -291,13 +292,13 @@ struct StageTable {
   }
 };
 
-enum class MotionUnit { g, metres };
-
 struct MotionTable {
   Location at;
   Reference file;
   std::optional<double> dt;        // [s]
-  std::optional<MotionUnit> unit;  // of the numbers in the file
+  std::optional<AccelerationUnit> unit;  // of the numbers in the file
+  std::optional<int> channel;            // from 1, of a file with several
+  std::optional<Reference> format;       // found from the file when not given
   std::optional<double> pga;       // [m/s2]
   std::optional<double> factor;
   Direction direction;

@@ -47,8 +47,9 @@ Exponentials closed_form(const Matrix2& A, double w, double xi, double h) {
   return e;
 }
 
-// Largest |p| of the cubic p on [0, 1] with p = u0, p' = d0 at 0 and p = u1, p' = d1 at 1, where d0 and d1 differ in sign.
-double extremum(double u0, double d0, double u1, double d1) {
+}  // namespace
+
+double turning_point(double u0, double d0, double u1, double d1) {
   const double cubic = d0 + d1 - 2 * (u1 - u0), square = 3 * (u1 - u0) - 2 * d0 - d1;
   // p' = d0 + 2 square s + 3 cubic s^2 has one root between
   const double q = -(square + std::copysign(std::sqrt(std::max(square * square - 3 * cubic * d0, 0.0)), square));
@@ -57,8 +58,6 @@ double extremum(double u0, double d0, double u1, double d1) {
   if (!(s >= 0 && s <= 1)) return std::max(std::abs(u0), std::abs(u1));
   return std::abs(u0 + s * (d0 + s * (square + s * cubic)));
 }
-
-}  // namespace
 
 std::vector<double> logarithmic_periods(double shortest, double longest, int count) {
   std::vector<double> periods;
@@ -115,7 +114,7 @@ void Oscillators::advance_piece(const OscillatorStep& step, double a0, double a1
     if (before_v_[i] * v_[i] >= 0) continue;
     const double ends = std::max(std::abs(before_u_[i]), std::abs(u_[i]));
     if (ends + h * std::max(std::abs(before_v_[i]), std::abs(v_[i])) <= peak_[i]) continue;
-    peak_[i] = std::max(peak_[i], extremum(before_u_[i], h * before_v_[i], u_[i], h * v_[i]));
+    peak_[i] = std::max(peak_[i], turning_point(before_u_[i], h * before_v_[i], u_[i], h * v_[i]));
   }
 }
 

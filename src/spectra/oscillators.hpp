@@ -18,10 +18,19 @@ class OscillatorStep {
   // Periods must be positive, the damping ratio in [0, 1), the step positive.
   OscillatorStep(const std::vector<double>& periods, double damping_ratio, double step);
 
+  // A step consists of pieces() pieces of the same length piece() [s]: short enough for the shortest period that a cubic
+  // finds the peaks between. These take oscillator i over one.
+  struct Coefficients {
+    double uu, uv, ua, ub, vu, vv, va, vb;
+  };
+  Coefficients coefficients(std::size_t i) const { return {uu_[i], uv_[i], ua_[i], ub_[i], vu_[i], vv_[i], va_[i], vb_[i]}; }
+  int pieces() const { return pieces_; }
+  double piece() const { return h_; }
+
  private:
   friend class Oscillators;
-  double h_ = 0;    // [s] of one piece
-  int pieces_ = 1;  // of the step: short enough for the shortest period that a cubic finds the peaks between
+  double h_ = 0;
+  int pieces_ = 1;
   std::vector<double> uu_, uv_, ua_, ub_, vu_, vv_, va_, vb_;
 };
 
@@ -49,6 +58,9 @@ class Oscillators {
   void advance_piece(const OscillatorStep& step, double a0, double a1);
   std::vector<double> u_, v_, peak_, before_u_, before_v_;
 };
+
+// Largest |p| of the cubic p on [0, 1] with p = u0, p' = d0 at 0 and p = u1, p' = d1 at 1, where d0 and d1 differ in sign.
+double turning_point(double u0, double d0, double u1, double d1);
 
 // Pseudo-velocity w |u| [m/s] and pseudo-acceleration w^2 |u| [m/s2] of peaks.
 std::vector<double> pseudo_velocity(const std::vector<double>& periods, const std::vector<double>& peak);
