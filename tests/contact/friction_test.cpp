@@ -67,8 +67,7 @@ TEST_CASE("a block that is thrown on the floor sticks, slips or lifts off as by 
   CHECK((solve({-1, 3, 4}) - m * solve_one_contact(Matrix3::Identity(), {-1, 3, 4}, mu)).norm() < 32 * epsilon);
 }
 
-TEST_CASE("a row of slabs squeezed between walls: friction shares the cut force as far as it goes") {
-  // two contacts of one block, both with the normal impulse 1 against it, pushed along the face by v
+TEST_CASE("two walls that close on a block leave no solution, and that is told") {
   const double mu = 0.5;
   for (const double v : {0.9, 1.1}) {
     MatrixX H(6, 3);  // block: x, y, z; walls at both sides
