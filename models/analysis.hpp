@@ -11,6 +11,7 @@
 namespace nsframe {
 
 enum class ContactSolverKind { active_set, gauss_seidel };
+enum class ImpactLaw { newton, poisson };
 
 struct AnalysisOptions {
   std::string scheme = "auto";         // name in the registry of schemes (integrators/schemes.cpp), or "auto" (scheme_choice.hpp)
@@ -26,6 +27,7 @@ struct AnalysisOptions {
   double screening = 1e-10;            // ModelDescription::screening, as scenes give it
   std::vector<std::string> algorithm{"auto"};  // names in the registry (integrators/algorithms.hpp), tried in turn
   int max_halvings = 10;               // of a step whose Newton iterations fail
+  ImpactLaw impact_law = ImpactLaw::newton;  // how e acts where several pairs collide at once (contact/impact_law.hpp)
   ContactSolverKind contact_solver = ContactSolverKind::active_set;
   double contact_tolerance = 1e-12;    // complementarity error relative to the approach velocity
   int max_contact_sweeps = 100000;     // Gauss-Seidel only

@@ -28,7 +28,7 @@ constexpr Geometry registry[] = {
 
 struct FinishedPair {
   PairDraft draft;
-  double gap = 0, restitution = 0;
+  double gap = 0, restitution = 0, friction = 0;
 };
 
 // Floor by floor from the lowest, and on each by rising position across the contact. Returns the floor of each.
@@ -87,6 +87,9 @@ void check_numbers(const ContactDescription& contact, Diagnostics& diagnostics) 
   for (const double e : restitutions) {
     if (!(e >= 0 && e <= 1)) diagnostics.error(contact.at, fmt::format("restitution = {}, must lie in [0, 1]", e));
   }
+  if (!(contact.friction >= 0 && std::isfinite(contact.friction))) {
+    diagnostics.error(contact.at, fmt::format("friction = {}, must not be negative", contact.friction));
+  }
   if (!(std::abs(contact.direction.norm() - 1) < 1e-9)) diagnostics.error(contact.at, "the direction of a contact must be a unit vector");
 }
 
@@ -112,8 +115,26 @@ void add(const ContactDescription& contact, const ContactScene& scene, std::vect
     pair.sliding_error = contact.sliding_error;
     if (pair.b.fixed()) pair.b.position = pair.a.position + open * pair.normal;
     if (!contact.name.empty()) pair.name = contact.name + ":" + pair.name;
-    pairs.push_back({std::move(draft), open, restitution[i]});
+    pairs.push_back({std::move(draft), open, restitution[i], contact.friction});
   }
+}
+
+// Slip rates of the pairs with friction; none when there is no such pair.
+void add_friction(const std::vector<FinishedPair>& pairs, const Model& model, Contacts& contacts) {
+  if (std::none_of(pairs.begin(), pairs.end(), [](const FinishedPair& pair) { return pair.friction > 0; })) return;
+  const int count = static_cast<int>(pairs.size());
+  contacts.friction.resize(count);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int i = 0; i < count; ++i) {
+    const FinishedPair& finished = pairs[static_cast<std::size_t>(i)];
+    contacts.friction[i] = finished.friction;
+    if (finished.friction == 0) continue;
+    const std::array<Vector3, 2> along = tangents(finished.draft.pair.normal);
+    for (int k = 0; k < 2; ++k) add_row(finished.draft.pair, along[static_cast<std::size_t>(k)], 2 * i + k, entries);
+  }
+  SparseRows full(2 * count, model.dofs.full);
+  full.setFromTriplets(entries.begin(), entries.end());
+  contacts.tangents = full * model.dofs.transformation;
 }
 
 Contacts finish(const std::vector<FinishedPair>& pairs, const Model& model, Diagnostics& diagnostics) {
@@ -123,7 +144,7 @@ Contacts finish(const std::vector<FinishedPair>& pairs, const Model& model, Diag
   contacts.restitution.resize(count);
   std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < count; ++i) {
-    const auto& [draft, gap, restitution] = pairs[static_cast<std::size_t>(i)];
+    const auto& [draft, gap, restitution, friction] = pairs[static_cast<std::size_t>(i)];
     contacts.pairs.push_back(draft.pair);
     contacts.initial_gap[i] = gap;
     contacts.restitution[i] = restitution;
@@ -132,6 +153,7 @@ Contacts finish(const std::vector<FinishedPair>& pairs, const Model& model, Diag
   SparseRows full(count, model.dofs.full);
   full.setFromTriplets(entries.begin(), entries.end());
   contacts.jacobian = full * model.dofs.transformation;
+  add_friction(pairs, model, contacts);
   for (int i = 0; i < count; ++i) {
     if (contacts.jacobian.row(i).norm() == 0) {
       const PairDraft& draft = pairs[static_cast<std::size_t>(i)].draft;

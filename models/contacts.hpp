@@ -29,9 +29,13 @@ struct Contacts {
   std::vector<ContactPair> pairs;
   SparseRows jacobian;                   // H (pairs x free DOFs): gap rate = H velocity
   VectorX initial_gap;                   // g0 [m], positive open
-  VectorX restitution;                   // Newton's e [-]
+  VectorX restitution;                   // e of Newton's or Poisson's law [-]
+  VectorX friction;                      // Coulomb's mu [-]; empty when no pair has any
+  SparseRows tangents;                   // (2 pairs x free DOFs): rows 2i, 2i + 1 give the slip rate of b on a along tangents(normal);
+                                         // without rows when no pair has friction, rows of zeros where a pair has none
 
   int size() const { return static_cast<int>(pairs.size()); }
+  bool frictional() const { return friction.size() > 0; }
 };
 
 // A row of the Jacobian: the velocity of b relative to a along `direction`, full DOFs.

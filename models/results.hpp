@@ -10,16 +10,17 @@
 namespace nsframe {
 
 // Work and energy since the start of the time history, relative to the moving base [J].
-//   kinetic + strain + damping + contact + numerical - input - (start) = balance error
+//   kinetic + strain + damping + contact + friction + numerical - input - (start) = balance error
 struct Energy {
   double kinetic = 0;          // 1/2 v' M v
   double strain = 0;           // work of the internal forces (less loads on nonlinear members) since the start, recoverable or not
   double damping = 0;          // dissipated by C
   double contact = 0;          // taken out by impacts
+  double friction = 0;         // taken out by slip
   double numerical = 0;        // dissipated by the scheme itself (theta > 1/2)
   double input = 0;            // work of the loads
   double initial = 0;          // kinetic energy at the start
-  double balance_error() const { return kinetic + strain + damping + contact + numerical - input - initial; }
+  double balance_error() const { return kinetic + strain + damping + contact + friction + numerical - input - initial; }
 };
 
 struct Impact {
@@ -28,6 +29,20 @@ struct Impact {
   double approach_velocity = 0;  // -(gap rate before), positive when closing [m/s]
   double impulse = 0;          // [N s]
   double rate_before = 0, rate_after = 0;  // gap rates [m/s]
+};
+
+// Slip of a pair with friction while it was in contact.
+struct Slip {
+  int pair = 0;
+  double distance = 0;         // along its path [m]
+  double energy = 0;           // taken out [J]
+};
+
+// What restitution added where several pairs collided at once; theory.md (270).
+struct CreatedEnergy {
+  double sum = 0;              // [J]
+  double largest = 0;          // in one event [J]
+  double largest_time = 0;     // [s]
 };
 
 // Impacts of one pair closer than 20 ms, or sustained contact, merged: what a test records as one impact.
@@ -196,6 +211,8 @@ struct Summary {
   std::vector<StoryDrift> drifts;
   std::vector<FloorSpectrumPeak> floor_spectra;
   double floor_spectra_damping = 0;               // [-]
+  std::vector<Slip> slips;                        // one a pair with friction
+  CreatedEnergy created;
   Energy energy;
   double worst_balance_error = 0;                 // over the run, relative to the largest energy [-]
   double max_penetration = 0;                     // [m]

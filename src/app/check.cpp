@@ -48,8 +48,8 @@ void print_contacts(const Contacts& contacts) {
   fmt::print("contact pairs: {}\n", contacts.size());
   for (int i = 0; i < contacts.size(); ++i) {
     const ContactPair& pair = contacts.pairs[static_cast<std::size_t>(i)];
-    fmt::print("  {:<32} gap {:8.4f} m   e = {:.3g}   normal ({:g}, {:g}, {:g}){}\n", pair.name, contacts.initial_gap[i],
-               contacts.restitution[i], pair.normal.x() + 0.0, pair.normal.y() + 0.0, pair.normal.z() + 0.0,  // no -0
+    fmt::print("  {:<32} gap {:8.4f} m   e = {:.3g}{}   normal ({:g}, {:g}, {:g}){}\n", pair.name, contacts.initial_gap[i],
+               contacts.restitution[i], contacts.frictional() ? fmt::format("   mu = {:.3g}", contacts.friction[i]) : "", pair.normal.x() + 0.0, pair.normal.y() + 0.0, pair.normal.z() + 0.0,  // no -0
                pair.rigid_bodies ? "" : "   at points of flexible slabs or columns");
   }
 }

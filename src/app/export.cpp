@@ -64,10 +64,10 @@ std::string dof_table(const Model& model) {
 }
 
 std::string contact_table(const Contacts& contacts) {
-  std::string text = "pair,name,gap_m,restitution\n";
+  std::string text = "pair,name,gap_m,restitution,friction\n";
   for (int i = 0; i < contacts.size(); ++i) {
-    text += fmt::format("{},{},{:.17g},{:.17g}\n", i + 1, contacts.pairs[static_cast<std::size_t>(i)].name, contacts.initial_gap[i],
-                        contacts.restitution[i]);
+    text += fmt::format("{},{},{:.17g},{:.17g},{:.17g}\n", i + 1, contacts.pairs[static_cast<std::size_t>(i)].name, contacts.initial_gap[i],
+                        contacts.restitution[i], contacts.frictional() ? contacts.friction[i] : 0);
   }
   return text;
 }

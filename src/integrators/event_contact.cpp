@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
-#include "contact/contact_problem.hpp"
+#include "contact/impact_law.hpp"
 #include "integrators/event_flow.hpp"
 
 namespace nsframe {
@@ -122,6 +122,7 @@ bool EventFlow::collide_once(const System& system, double time, double remaining
   for (const int c : pairs) fastest = std::max(fastest, -rate_[c]);
   largest_approach_ = std::max(largest_approach_, fastest);
   const VectorX pull = accelerations();
+  VectorX restitution(rhs.size());
   std::vector<bool> ends(pairs.size(), false);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const int c = pairs[k];
@@ -132,9 +133,14 @@ bool EventFlow::collide_once(const System& system, double time, double remaining
       ++result.accumulations.ended;
       result.accumulations.largest_bounce = std::max(result.accumulations.largest_bounce, rise);
     }
-    rhs[static_cast<Eigen::Index>(k)] = (1 + (last || ends[k] ? 0 : e)) * rate_[c];
+    restitution[static_cast<Eigen::Index>(k)] = last || ends[k] ? 0 : e;
+    rhs[static_cast<Eigen::Index>(k)] = rate_[c];
   }
-  const VectorX impulse = solve_forces(system, pairs, rhs, result);
+  const MatrixX W = modes_.delassus(pairs, pairs);
+  const VectorX impulse =
+      options_.impact_law == ImpactLaw::newton
+          ? solve_forces(system, pairs, rhs + restitution.cwiseProduct(rhs), result)
+          : poisson_impact(W, rhs, restitution, [&](const ContactProblem& p) { return solve_forces(system, pairs, p.rhs, result); }).impulse;
   VectorX change = VectorX::Zero(modes_.dofs);
   const VectorX before = rate_;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -144,6 +150,7 @@ bool EventFlow::collide_once(const System& system, double time, double remaining
     change += p * modes_.velocity_jump.col(pairs[k]);
   }
   rate_ = modes_.gap * state_.y;
+  result.created += created_energy(W, impulse, before(pairs), rate_(pairs));
   const VectorX acceleration = accelerations();
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const int c = pairs[k];

@@ -34,6 +34,7 @@ void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness
   stiffness_.assign(stiffness.valuePtr(), stiffness.valuePtr() + stiffness.nonZeros());
   damping_.assign(system.damping.tangent.valuePtr(), system.damping.tangent.valuePtr() + system.damping.tangent.nonZeros());
   responses_.assign(static_cast<std::size_t>(system.contacts().size()), VectorX());
+  tangent_responses_.assign(static_cast<std::size_t>(system.contacts().tangents.rows()), VectorX());
   std::size_t structure = 0;
   for (Block& block : blocks_) {
     while (system.assembler.blocks()[structure].size() == 0) ++structure;
@@ -172,6 +173,12 @@ const VectorX& IterationMatrix::response(const Contacts& contacts, int pair) {
     const VectorX row = contacts.jacobian.row(pair).transpose();
     solve(row, cached);
   }
+  return cached;
+}
+
+const VectorX& IterationMatrix::tangent_response(const Contacts& contacts, int row) {
+  VectorX& cached = tangent_responses_[static_cast<std::size_t>(row)];
+  if (cached.size() == 0) solve(VectorX(contacts.tangents.row(row).transpose()), cached);
   return cached;
 }
 

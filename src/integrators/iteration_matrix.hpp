@@ -33,6 +33,8 @@ class IterationMatrix {
   void solve(const VectorX& rhs, VectorX& x);
   // J^-1 H' of one contact pair (computed once a factorization).
   const VectorX& response(const Contacts& contacts, int pair);
+  // J^-1 T' of a row of Contacts::tangents.
+  const VectorX& tangent_response(const Contacts& contacts, int row);
 
  private:
   using SparseFactor = std::variant<std::unique_ptr<Eigen::SimplicialLDLT<SparseMatrix>>,
@@ -63,7 +65,7 @@ class IterationMatrix {
   BlockOperator inverse_;
   bool invertible_ = false;               // all blocks are dense
   int solves_ = 0;                        // since the last factorization
-  std::vector<VectorX> responses_;
+  std::vector<VectorX> responses_, tangent_responses_;
 };
 
 }  // namespace nsframe

@@ -17,6 +17,12 @@ constexpr double slow_reduction = 0.005;
 // Accelerations below this count as zero when the residual is judged [m/s2].
 constexpr double least_acceleration = 1e-3;
 
+// Newton's law can ask a body between two pairs with different e to leave both.
+std::string hint_of_restitution(const Contacts& contacts) {
+  const bool differ = contacts.restitution.maxCoeff() > contacts.restitution.minCoeff();
+  return differ ? "; where e differs, Newton's law may have no solution: impact_law = \"poisson\" has one" : "";
+}
+
 }  // namespace
 
 MoreauJean::MoreauJean(const AnalysisOptions& options, const System& system)
@@ -69,35 +75,42 @@ void MoreauJean::update_velocity(const System& system, const VectorX& change, St
     const double p = impulse_[static_cast<Eigen::Index>(a)];
     if (p != 0) trial.velocity -= p * matrix_.response(contacts, active_[a]);
   }
+  if (contacts.frictional()) add_friction_response(contacts, -1, trial.velocity);
   const auto count = static_cast<Eigen::Index>(active_.size());
   ContactProblem problem{MatrixX(count, count), VectorX(count)};
   for (Eigen::Index a = 0; a < count; ++a) {
     const int pair = active_[static_cast<std::size_t>(a)];
     const auto row = contacts.jacobian.row(pair);
-    problem.rhs[a] = row.dot(trial.velocity) + contacts.restitution[pair] * rate_[pair];
+    problem.rhs[a] = row.dot(trial.velocity);
     for (Eigen::Index b = 0; b < count; ++b) {
       problem.delassus(a, b) = row.dot(matrix_.response(contacts, active_[static_cast<std::size_t>(b)]));
     }
   }
+  problem.rhs -= target_rates(system, problem.delassus);
   const ContactOptions contact_options{options_.contact_tolerance, options_.max_contact_sweeps};
-  ContactSolution solution = options_.contact_solver == ContactSolverKind::active_set
+  ContactSolution solution = contacts.frictional() ? solve_with_friction(system, problem, trial)
+                             : options_.contact_solver == ContactSolverKind::active_set
                                  ? solve_active_set(problem, contact_options, impulse_)
                                  : solve_gauss_seidel(problem, contact_options, impulse_);
   result.complementarity_error = solution.error;
   if (!solution.converged) {
     Eigen::Index worst = 0;
-    (problem.delassus * solution.impulse + problem.rhs).minCoeff(&worst);
-    throw ConvergenceError(fmt::format("the contact problem did not converge (error {:.1e} after {} iterations), worst pair {}",
-                                       solution.error, solution.iterations,
-                                       contacts.pairs[static_cast<std::size_t>(active_[static_cast<std::size_t>(worst)])].name));
+    if (!contacts.frictional()) (problem.delassus * solution.impulse + problem.rhs).minCoeff(&worst);
+    throw ConvergenceError(fmt::format("the contact problem{} did not converge (error {:.1e} after {} iterations), {} pair {}{}",
+                                       contacts.frictional() ? " with friction" : "", solution.error, solution.iterations,
+                                       contacts.frictional() ? "first" : "worst",
+                                       contacts.pairs[static_cast<std::size_t>(active_[static_cast<std::size_t>(worst)])].name,
+                                       hint_of_restitution(contacts)));
   }
   impulse_ = std::move(solution.impulse);
+  delassus_ = std::move(problem.delassus);
   contact_change_.resize(0);
   for (Eigen::Index a = 0; a < count; ++a) {
     if (impulse_[a] == 0) continue;
     if (contact_change_.size() == 0) contact_change_.setZero(trial.velocity.size());
     contact_change_ += impulse_[a] * matrix_.response(contacts, active_[static_cast<std::size_t>(a)]);
   }
+  if (contact_change_.size() > 0 && contacts.frictional()) add_friction_response(contacts, 1, contact_change_);
   if (contact_change_.size() > 0) trial.velocity += contact_change_;
 }
 
@@ -106,6 +119,7 @@ void MoreauJean::add_impulses(const System& system) {
   for (std::size_t a = 0; a < active_.size(); ++a) {
     residual_ -= impulse_[static_cast<Eigen::Index>(a)] * system.contacts().jacobian.row(active_[a]).transpose();
   }
+  if (system.contacts().frictional()) add_friction(system.contacts(), -1, residual_);
 }
 
 double MoreauJean::force_scale(const State& trial, double h) const {
@@ -129,6 +143,7 @@ class MoreauJean::Step : public NonlinearStep {
 
   void restart() override {
     scheme_.impulse_ = VectorX::Zero(result_.active_pairs);
+    scheme_.friction_impulse_ = VectorX::Zero(system_.contacts().frictional() ? 2 * result_.active_pairs : 0);
     system_.assembler.start_step(committed_.history, trial_.history);
     trial_.velocity = committed_.velocity;
     predicted_ = !system_.linear() && has_factors();
@@ -196,6 +211,7 @@ void MoreauJean::step(System& system, const State& committed, State& trial, doub
   result.impacts.clear();
   result.newton_iterations = result.solves = 0;
   result.jumps.clear();
+  result.slips.clear();
   contact_change_.resize(0);
   find_active_pairs(system, committed, h, result);
   result.active_pairs = static_cast<int>(active_.size());
@@ -243,6 +259,7 @@ void MoreauJean::report(const System& system, const State& committed, State& tri
     trial.impulse[pair] = p;
     result.impacts.push_back({trial.time, pair, -before, p, before, after});
   }
+  report_simultaneous(system, committed, trial, h, result);
   result.numerical *= options_.theta - 0.5;
   if (system.assembler.rate_dependent()) {
     result.damping += rate_energy_.dissipated;

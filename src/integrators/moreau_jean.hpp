@@ -32,6 +32,13 @@ class MoreauJean : public Scheme {
   void evaluate(System& system, const State& committed, State& trial, double h, bool with_tangent);
   // Changes the velocity as an algorithm commands, then solves the contact problem on the active pairs.
   void update_velocity(const System& system, const VectorX& change, State& trial, StepResult& result);
+  // moreau_jean_contact.cpp: what restitution asks of the gap rates of the active pairs at the end of the step (274); the contact
+  // problem with friction (280), its impulses, and what both report.
+  VectorX target_rates(const System& system, const MatrixX& delassus) const;
+  ContactSolution solve_with_friction(const System& system, ContactProblem& problem, const State& trial);
+  void add_friction(const Contacts& contacts, double factor, VectorX& momentum) const;
+  void add_friction_response(const Contacts& contacts, double factor, VectorX& velocity);
+  void report_simultaneous(const System& system, const State& committed, const State& trial, double h, StepResult& result) const;
   // Fills residual_ = R with the contact impulses.
   void add_impulses(const System& system);
   double force_scale(const State& trial, double h) const;
@@ -45,6 +52,8 @@ class MoreauJean : public Scheme {
   std::vector<int> active_;
   VectorX gap_, rate_;                // at the start of the step
   VectorX impulse_;                   // of the active pairs
+  VectorX friction_impulse_;          // two an active pair, along its tangents; empty without friction
+  MatrixX delassus_;                  // of the last contact problem; rows of tangents included where there is friction
   VectorX load_, free_residual_, residual_, mid_velocity_, momentum_change_;
   Extrapolation departure_;           // of P(q+) - P(q) - K (q+ - q) with the factored K, step by step [N]
   VectorX rate_force_;                // of rate-dependent elements, at the theta point

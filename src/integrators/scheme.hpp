@@ -27,9 +27,11 @@ struct StepResult {
   std::vector<Impact> impacts;
   std::vector<VelocityJump> jumps;   // in the order of time
   std::vector<Attempt> attempts;     // of the solution algorithms, also when the step failed
+  std::vector<Slip> slips;           // of pairs with friction in contact
+  double created = 0;                // by restitution in simultaneous impacts [J]
   Accumulations accumulations;       // ended in this step
   // increments over the step [J]; kinetic and strain energy are those of Energy
-  double strain = 0, damping = 0, contact = 0, numerical = 0, input = 0;
+  double strain = 0, damping = 0, contact = 0, friction = 0, numerical = 0, input = 0;
 };
 
 class Scheme {

@@ -21,6 +21,7 @@ std::string reason_against_modes(const System& system, const State& start) {
   }
   const Contacts& contacts = system.contacts();
   if (contacts.size() == 0) return {};
+  if (contacts.frictional()) return "contact has friction, which acts in moreau-jean alone";
   if (!system.model.stages.empty()) return "contact pairs may overlap after static stages, in which they do not act";
   const VectorX gap = contacts.jacobian * start.displacement + contacts.initial_gap;
   Eigen::Index least = 0;

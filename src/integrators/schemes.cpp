@@ -24,6 +24,19 @@ const std::map<std::string, Factory>& factories() {
   return schemes;
 }
 
+// Friction, and Poisson's law beside it, where they are not available.
+void check_contact_laws(const AnalysisOptions& options, const Contacts& contacts) {
+  if (!contacts.frictional()) return;
+  Diagnostics diagnostics;
+  if (options.scheme != "moreau-jean") {
+    diagnostics.error(options.scheme_at, fmt::format("scheme {} has no friction, which contact asks for: scheme = \"moreau-jean\" has it", options.scheme));
+  }
+  if (options.impact_law == ImpactLaw::poisson) {
+    diagnostics.error(options.scheme_at, "impact_law = \"poisson\" is for contact without friction; with friction it is \"newton\"");
+  }
+  diagnostics.throw_if_any();
+}
+
 }  // namespace
 
 std::vector<std::string> scheme_names() {
@@ -37,6 +50,7 @@ std::unique_ptr<Scheme> make_scheme(const AnalysisOptions& options, const System
   if (found == factories().end()) {
     throw InputError(fmt::format("error: scheme '{}' is not known{}", options.scheme, did_you_mean(options.scheme, scheme_names())));
   }
+  check_contact_laws(options, system.contacts());
   return found->second(options, system);
 }
 

@@ -217,6 +217,8 @@ Summary Simulation::run(const std::vector<Observer*>& observers, const RunContro
   summary.softened_members = system_.assembler.softened_members(state_.history);
   summary.impacts = std::move(result.impacts);
   summary.energy = result.energy;
+  summary.slips = std::move(result.slips);
+  summary.created = result.created;
   summary.worst_balance_error = result.worst_balance_error;
   summary.max_penetration = result.max_penetration;
   summary.max_complementarity_error = result.max_complementarity_error;

@@ -31,6 +31,10 @@ void visit_sums(Sums& sums, const Visit& visit) {
   visit("strain", sums.energy.strain);
   visit("damping", sums.energy.damping);
   visit("contact", sums.energy.contact);
+  visit("friction", sums.energy.friction);
+  visit("created", sums.created.sum);
+  visit("created_largest", sums.created.largest);
+  visit("created_largest_time", sums.created.largest_time);
   visit("numerical", sums.energy.numerical);
   visit("input", sums.energy.input);
   visit("initial", sums.energy.initial);
@@ -73,7 +77,7 @@ class TimeHistory {
   void advance(const State& committed, State& trial, double h, int halvings);
   // Notes steps in which the first algorithm failed.
   void record_ladder(const State& committed);
-  void add(const StepResult& step);
+  void add(const StepResult& step, double time);
   void watch_energy(const State& state);
   bool stop_now();
   void save(const State& committed);
@@ -107,7 +111,7 @@ void TimeHistory::advance(const State& committed, State& trial, double h, int ha
   try {
     scheme_.step(system_, committed, trial, h, step_);
     record_ladder(committed);
-    add(step_);
+    add(step_, committed.time);
   } catch (const ConvergenceError&) {
     record_ladder(committed);
     if (halvings >= options_.max_halvings || !scheme_.shorter_steps_help()) throw;
@@ -126,7 +130,7 @@ void TimeHistory::record_ladder(const State& committed) {
   if (result_.ladder.size() < most_ladder_records) result_.ladder.push_back({"", result_.steps + 1, committed.time, step_.attempts});
 }
 
-void TimeHistory::add(const StepResult& step) {
+void TimeHistory::add(const StepResult& step, double time) {
   report_.newton_iterations += step.newton_iterations;
   report_.active_pairs = std::max(report_.active_pairs, step.active_pairs);
   report_.residual = std::max(report_.residual, step.residual);
@@ -144,8 +148,19 @@ void TimeHistory::add(const StepResult& step) {
   result_.energy.strain += step.strain;
   result_.energy.damping += step.damping;
   result_.energy.contact += step.contact;
+  result_.energy.friction += step.friction;
   result_.energy.numerical += step.numerical;
   result_.energy.input += step.input;
+  for (const Slip& slip : step.slips) {
+    const auto sum = std::find_if(result_.slips.begin(), result_.slips.end(), [&](const Slip& s) { return s.pair == slip.pair; });
+    sum->distance += slip.distance;
+    sum->energy += slip.energy;
+  }
+  result_.created.sum += step.created;
+  if (step.created > result_.created.largest) {
+    result_.created.largest = step.created;
+    result_.created.largest_time = time;
+  }
   step_impacts_.insert(step_impacts_.end(), step.impacts.begin(), step.impacts.end());
   report_.jumps.insert(report_.jumps.end(), step.jumps.begin(), step.jumps.end());
 }
@@ -162,6 +177,9 @@ void TimeHistory::watch_energy(const State& state) {
 }
 
 void TimeHistory::begin(State& committed, double duration) {
+  for (int i = 0; i < system_.contacts().friction.size(); ++i) {
+    if (system_.contacts().friction[i] > 0) result_.slips.push_back({i});
+  }
   if (control_.resume) {
     check_duration(*control_.resume, duration);
     restore(committed);
@@ -222,6 +240,9 @@ void TimeHistory::save(const State& committed) {
   visit_sums(result_, [&](const char* name, auto value) {
     snapshot.put(std::string("time_history.") + name, static_cast<double>(value));
   });
+  for (const Slip& slip : result_.slips) {
+    snapshot.put(fmt::format("time_history.slip.{}", slip.pair), std::vector<double>{slip.distance, slip.energy});
+  }
   nsframe::save("time_history.impacts", result_.impacts, snapshot);
   nsframe::save("time_history.ladder", result_.ladder, snapshot);
   control_.keep_snapshot(snapshot);
@@ -239,6 +260,10 @@ void TimeHistory::restore(State& committed) {
   visit_sums(result_, [&](const char* name, auto& value) {
     value = static_cast<std::remove_reference_t<decltype(value)>>(snapshot.number(std::string("time_history.") + name));
   });
+  for (Slip& slip : result_.slips) {
+    const std::vector<double>& sums = snapshot.array(fmt::format("time_history.slip.{}", slip.pair));
+    slip = {slip.pair, sums[0], sums[1]};
+  }
   earlier_seconds_ = snapshot.number("time_history.wall_seconds");
   result_.impacts = restore_impacts("time_history.impacts", snapshot);
   result_.ladder = restore_ladder("time_history.ladder", snapshot);

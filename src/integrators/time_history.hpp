@@ -23,6 +23,8 @@ struct RunSums {
   double max_penetration = 0;        // [m]
   double max_complementarity_error = 0;
   Accumulations accumulations;
+  std::vector<Slip> slips;           // one a pair with friction
+  CreatedEnergy created;
 };
 
 struct TimeHistoryResult : RunSums {

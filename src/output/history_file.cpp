@@ -238,7 +238,7 @@ void HistoryFile::Writer::save(Snapshot& snapshot) {
   snapshot.put("history.next_sample", clock_.next());
   snapshot.put("history.impulse", impulse_);
   const Energy& e = energy_;
-  snapshot.put("history.energy", std::vector<double>{e.kinetic, e.strain, e.damping, e.contact, e.numerical, e.input, e.initial});
+  snapshot.put("history.energy", std::vector<double>{e.kinetic, e.strain, e.damping, e.contact, e.friction, e.numerical, e.input, e.initial});
   nsframe::save("history.impacts", impacts_, snapshot);
 }
 
@@ -247,9 +247,9 @@ void HistoryFile::Writer::resume(const Model& model, const State& state, const S
   const auto rows = static_cast<hsize_t>(snapshot.number("history.rows"));
   clock_.resume(snapshot.number("history.next_sample"));
   snapshot.read("history.impulse", impulse_);
-  std::array<double, 7> e{};
+  std::array<double, 8> e{};
   snapshot.read("history.energy", e);
-  energy_ = {e[0], e[1], e[2], e[3], e[4], e[5], e[6]};
+  energy_ = {e[0], e[1], e[2], e[3], e[4], e[5], e[6], e[7]};
   impacts_ = restore_impacts("history.impacts", snapshot);
   time_->truncate(rows);
   for (auto& part : parts_) part->truncate(rows);

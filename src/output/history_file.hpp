@@ -19,7 +19,7 @@ class FloorSpectra;
 //   /sections/<kind>/element (p), position (p); deformation, force (n, p, 3); peak_strain_ratio, yielded (n, p)
 //   /fibers/<kind>/element, point, position, y, z, area, material (f); strain, stress, yielded (n, f)
 //   /contacts/pair (c); gap, impulse (n, c), the impulse since the row before
-//   /energy/kinetic, strain, damping, contact, numerical, input, balance_error (n); final values as attributes
+//   /energy/kinetic, strain, damping, contact, friction, numerical, input, balance_error (n); final values as attributes
 //   /ground/acceleration, velocity (n, 3)
 //   /impacts/time, pair, approach_velocity, impulse, rate_before, rate_after (i)
 //   /poundings/time, duration, pair, approach_velocity, impulse, effective_restitution, impacts

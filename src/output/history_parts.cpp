@@ -88,8 +88,8 @@ class ContactPart : public HistoryPart {
 };
 
 constexpr double Energy::*energy_terms[] = {&Energy::kinetic, &Energy::strain,    &Energy::damping,
-                                            &Energy::contact, &Energy::numerical, &Energy::input};
-constexpr const char* energy_names[] = {"kinetic", "strain", "damping", "contact", "numerical", "input"};
+                                            &Energy::contact, &Energy::friction, &Energy::numerical, &Energy::input};
+constexpr const char* energy_names[] = {"kinetic", "strain", "damping", "contact", "friction", "numerical", "input"};
 
 class EnergyPart : public HistoryPart {
  public:

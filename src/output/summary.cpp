@@ -49,6 +49,14 @@ Json poundings_json(const Summary& summary) {
   return list;
 }
 
+Json friction_json(const Summary& summary) {
+  Json list = Json::array();
+  for (const Slip& slip : summary.slips) {
+    list.push_back({{"pair", pair_name(summary, slip.pair)}, {"slip", slip.distance}, {"energy", slip.energy}});
+  }
+  return list;
+}
+
 Json ladder_json(const std::vector<LadderRecord>& records) {
   Json list = Json::array();
   for (const auto& record : records) {
@@ -135,6 +143,7 @@ Json energy_json(const Summary& summary) {
           {"strain", energy.strain},
           {"damping", energy.damping},
           {"contact", energy.contact},
+          {"friction", energy.friction},
           {"numerical", energy.numerical},
           {"input", energy.input},
           {"initial", energy.initial},
@@ -299,6 +308,11 @@ std::string summary_json(const Summary& summary) {
       {"peaks", peaks_json(summary)},
       {"drifts", drifts_json(summary)},
       {"floor_spectra", floor_spectra_json(summary)},
+      {"friction", friction_json(summary)},
+      {"restitution",
+       {{"created_energy", summary.created.sum},
+        {"largest_created", summary.created.largest},
+        {"largest_created_t", summary.created.largest_time}}},
       {"energy", energy_json(summary)},
       {"max_penetration", summary.max_penetration},
       {"max_complementarity_error", summary.max_complementarity_error},

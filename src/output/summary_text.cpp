@@ -220,8 +220,13 @@ void put_energy(Buffer& out, const Summary& summary) {
   }
   const auto tidy = [most](double part) { return rounded_off(part, 1e-12 * most); };
   line(out, "  {:>11.4g} {:>11.4g} {:>11.4g} {:>11.4g} {:>11.4g} {:>11.4g} {:>11.4g} {:>11.1e}", tidy(e.input),
-       tidy(e.initial), tidy(e.kinetic), tidy(e.strain), tidy(e.damping), tidy(e.contact), tidy(e.numerical),
+       tidy(e.initial), tidy(e.kinetic), tidy(e.strain), tidy(e.damping), tidy(e.contact + e.friction), tidy(e.numerical),
        e.balance_error());
+  if (!summary.slips.empty()) {
+    const auto most_slip = std::max_element(summary.slips.begin(), summary.slips.end(), [](const Slip& a, const Slip& b) { return a.distance < b.distance; });
+    line(out, "  of which friction took {:.4g}; the longest slip, {:.4g} mm, is that of {}", e.friction, 1e3 * most_slip->distance,
+         summary.pairs[static_cast<std::size_t>(most_slip->pair)]);
+  }
   line(out, "  largest balance error of the run: {:.1e} of the largest energy", summary.worst_balance_error);
 }
 

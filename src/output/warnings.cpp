@@ -111,6 +111,18 @@ void of_coarse_motions(const Model& model, const Summary& summary, Sentences& ou
   }
 }
 
+constexpr double much_created = 1e-4;  // of the largest energy that the run met
+
+void of_created_energy(const Model&, const Summary& summary, Sentences& out) {
+  const Energy& e = summary.energy;
+  const double scale = std::max({e.initial, e.kinetic, std::abs(e.input), std::abs(e.strain), std::abs(e.contact)});
+  const CreatedEnergy& created = summary.created;
+  if (!(created.sum > much_created * scale)) return;
+  out.push_back(fmt::format("Newton's law of restitution created {:.3g} J where several pairs collided at once, {:.3g} J of it at t = {:.4g} s: "
+                            "impact_law = \"poisson\" creates none",
+                            created.sum, created.largest, created.largest_time));
+}
+
 void of_halved_steps(const Model&, const Summary& summary, Sentences& out) {
   if (summary.steps == 0 || summary.halved_steps * 100 < summary.steps || summary.halved_steps == 0) return;
   out.push_back(fmt::format("steps did not converge and were halved {} times in {} steps: a smaller dt would be more accurate and not slower",
@@ -127,7 +139,8 @@ void of_softened_members(const Model&, const Summary& summary, Sentences& out) {
 
 using Rule = void (*)(const Model&, const Summary&, Sentences&);
 constexpr Rule rules[]{of_the_scheme,  of_light_contact_nodes, of_effective_restitution,
-                       of_penetration, of_coarse_motions,      of_halved_steps, of_softened_members};
+                       of_penetration, of_coarse_motions,      of_created_energy,
+                       of_halved_steps, of_softened_members};
 
 }  // namespace
 

@@ -94,6 +94,7 @@ std::vector<ContactDescription> describe(const ContactTable& contact) {
     one.gap = contact.gap.values;
     one.restitution = contact.restitution.values.front();
     if (contact.restitution.values.size() > 1) one.restitutions = contact.restitution.values;
+    one.friction = contact.friction;
     one.wall = contact.wall;
     one.reach = contact.reach;
     one.gap_tolerance = contact.gap_tolerance;

@@ -175,6 +175,10 @@ void visit(Archive& ar, AnalysisOptions& a) {
            "`bfgs`; `auto`: newton, line-search, krylov, initial"},
      a.algorithm);
   ar(Field{"max_halvings", "of a step whose iterations fail", {}, {0, 60}}, a.max_halvings);
+  ar(Field{"impact_law",
+           "how restitution acts where several pairs collide at once: `newton` by gap rates, which may create energy where e differs; "
+           "`poisson` by impulses, which never does. The same for one pair alone"},
+     a.impact_law);
   ar(Field{"contact_solver", "of the contact problem"}, a.contact_solver);
   ar(Field{"contact_tolerance", "complementarity error relative to the approach velocity", {}, range::positive},
      a.contact_tolerance);

@@ -48,7 +48,11 @@ void visit(Archive& ar, ContactTable& c) {
            "a run warns when sliding along a turned face makes the gap wrong by more (theory.md, 187)", dimension::length,
            range::positive},
      c.sliding_error);
-  ar(Field{"restitution", "Newton's e; one value, or listed as `gap`", {}, range::unit}, c.restitution);
+  ar(Field{"restitution", "e of Newton's or Poisson's law (`analysis.impact_law`); one value, or listed as `gap`", {}, range::unit}, c.restitution);
+  ar(Field{"friction",
+           "Coulomb's coefficient, static and sliding alike, along both tangents of the face; 0: none. Of scheme `moreau-jean`", {},
+           range::non_negative},
+     c.friction);
 }
 
 }  // namespace nsframe

@@ -68,4 +68,8 @@ constexpr auto names_of(ContactSolverKind) {
       {{"active-set", ContactSolverKind::active_set}, {"gauss-seidel", ContactSolverKind::gauss_seidel}}};
 }
 
+constexpr auto names_of(ImpactLaw) {
+  return Names<ImpactLaw, 2>{{{"newton", ImpactLaw::newton}, {"poisson", ImpactLaw::poisson}}};
+}
+
 }  // namespace nsframe

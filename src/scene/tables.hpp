@@ -245,6 +245,7 @@ struct ContactTable {
   Direction direction;
   PairValues gap;  // [m]
   PairValues restitution{{ContactDescription{}.restitution}};
+  double friction = ContactDescription{}.friction;
   std::optional<Vector3> wall;  // a point of it [m]
   double reach = ContactDescription{}.reach;
   double gap_tolerance = ContactDescription{}.gap_tolerance;

@@ -2,6 +2,7 @@
 
 #ifdef NSFRAME_HAS_VTK
 
+#include <vtkCell.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -244,6 +245,65 @@ TEST_CASE("frames are the steps nearest to the frame times, and sum the impulses
   vtkDataArray* gap = grid->GetCellData()->GetArray("gap");
   const VectorX expected = model.contacts.jacobian * before.displacement + model.contacts.initial_gap;
   CHECK(gap->GetComponent(grid->GetNumberOfCells() - 4, 0) == doctest::Approx(expected[0]).epsilon(1e-14));
+}
+
+TEST_CASE("every kind of contact geometry is a line between its two points in the frames, with gap and impulse") {
+  struct Kind {
+    ContactKind kind;
+    double shift_y, shift_z;  // of the right frame [m]
+    int pairs;
+  };
+  const Kind kinds[] = {{ContactKind::slab_edges, 0.3, 0, 4},
+                        {ContactKind::slab_columns, 0, 1.1, 6},  // levels 2.5 and 5.0 on right's columns, 3.6 on left's
+                        {ContactKind::facing, 0, 1.1, 6},
+                        {ContactKind::wall, 0, 0, 4}};
+  for (const auto& [kind, shift_y, shift_z, pairs] : kinds) {
+    CAPTURE(static_cast<int>(kind));
+    ModelDescription description = sample_description();
+    for (NodeDescription& node : description.structures[1].nodes) {
+      node.position.y() += shift_y;
+      if (node.position.z() > 0) node.position.z() += shift_z;
+    }
+    ContactDescription& contact = description.contacts[0];
+    contact.kind = kind;
+    contact.gap.clear();
+    if (kind == ContactKind::wall) {
+      contact.b.reset();
+      contact.wall = Vector3(span_x + 0.02, 0, 0);
+    }
+    Diagnostics diagnostics;
+    const Model model = build_model(description, diagnostics);
+    REQUIRE(model.contacts.size() == pairs);
+    const TemporaryFolder folder;
+    VtkFrames frames(folder.path(), at_rate(100));
+    State before = sample_state(model), after = sample_state(model, 0.01);
+    frames.start(model, before);
+    for (int i = 0; i < pairs; ++i) after.impulse[i] = 1 + i;
+    frames.step(before, after, {}, {});
+    frames.finish();
+    const auto grid = read_frame(folder / "frames/frame_000001.vtu");
+    vtkDataArray *displacement = grid->GetPointData()->GetArray("displacement"), *gap = grid->GetCellData()->GetArray("gap"),
+                 *impulse = grid->GetCellData()->GetArray("impulse"), *pair = grid->GetCellData()->GetArray("pair");
+    REQUIRE(displacement);
+    const VectorX expected = model.contacts.jacobian * after.displacement + model.contacts.initial_gap;
+    int found = 0;
+    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell) {
+      const auto i = static_cast<int>(pair->GetComponent(cell, 0));
+      if (i < 0) continue;
+      ++found;
+      REQUIRE(grid->GetCellType(cell) == static_cast<int>(CellType::line));
+      const ContactPair& drawn = model.contacts.pairs[static_cast<std::size_t>(i)];
+      const vtkIdType first = grid->GetCell(cell)->GetPointId(0), last = grid->GetCell(cell)->GetPointId(1);
+      CHECK((point_at(grid, first) - drawn.a.position).norm() < 1e-12);
+      CHECK((point_at(grid, last) - drawn.b.position).norm() < 1e-12);
+      // the points move as the rows of the Jacobian say
+      const double closing = drawn.normal.dot(value_at(displacement, last) - value_at(displacement, first));
+      CHECK(model.contacts.initial_gap[i] + closing == doctest::Approx(expected[i]).epsilon(1e-12));
+      CHECK(gap->GetComponent(cell, 0) == doctest::Approx(expected[i]).epsilon(1e-14));
+      CHECK(impulse->GetComponent(cell, 0) == 1 + i);
+    }
+    CHECK(found == pairs);
+  }
 }
 
 TEST_CASE("section forces are in equilibrium with the load that a cantilever column carries") {

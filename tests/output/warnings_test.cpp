@@ -118,3 +118,15 @@ TEST_CASE("halved steps are told when they are not rare") {
   CHECK(run.warnings()[0] ==
         "steps did not converge and were halved 10 times in 1000 steps: a smaller dt would be more accurate and not slower");
 }
+
+TEST_CASE("energy that restitution creates is told with the law that creates none") {
+  Run run;
+  run.summary.energy.initial = 100;
+  run.summary.created = {0.009, 0.009, 2};
+  CHECK(run.warnings().empty());
+  run.summary.created = {1.5, 1.2, 2.25};
+  REQUIRE(run.warnings().size() == 1);
+  CHECK(run.warnings()[0] ==
+        "Newton's law of restitution created 1.5 J where several pairs collided at once, 1.2 J of it at t = 2.25 s: impact_law = "
+        "\"poisson\" creates none");
+}
