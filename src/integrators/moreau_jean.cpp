@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 #include "base/errors.hpp"
+#include "integrators/mode_response.hpp"
 
 namespace nsframe {
 
@@ -263,18 +263,6 @@ void MoreauJean::restore(System& system, const Snapshot& snapshot) {
   departure_.restore("moreau_jean.departure", system.mass().rows(), snapshot);
 }
 
-Scheme::ModeResponse MoreauJean::mode_response(double w, double xi, double h) const {
-  if (w == 0) return {0, 0};
-  const double theta = options_.theta, c = 2 * xi * w, k = w * w;
-  const double J = 1 + h * theta * c + h * h * theta * theta * k;
-  // v+ = from_v v + from_q q, q+ = q + h ((1 - theta) v + theta v+)
-  const double from_v = (1 - h * (1 - theta) * c - h * h * theta * (1 - theta) * k) / J, from_q = -h * k / J;
-  const double q_q = 1 + h * theta * from_q, q_v = h * (1 - theta) + h * theta * from_v;
-  const double half_trace = 0.5 * (q_q + from_v), determinant = q_q * from_v - q_v * from_q;
-  const std::complex<double> root = std::sqrt(std::complex<double>(half_trace * half_trace - determinant, 0));
-  const std::complex<double> eigenvalue = half_trace + root;
-  const std::complex<double> exponent = std::log(eigenvalue) / h;
-  return {-exponent.real() / std::abs(exponent), std::abs(exponent)};
-}
+Scheme::ModeResponse MoreauJean::mode_response(double w, double xi, double h) const { return theta_method_response(options_.theta, w, xi, h); }
 
 }  // namespace nsframe

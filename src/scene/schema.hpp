@@ -138,7 +138,8 @@ template <class Archive>
 void visit(Archive& ar, AnalysisOptions& a) {
   ar(Field{"scheme",
            "time integration: `moreau-jean`; `exact` for linear scenes, where `dt` only says when results are kept; `exponential` for scenes "
-           "that yield; `auto`: `exact` or `exponential` where they can be, else `moreau-jean`, which options of its own (`theta`, `gamma`, "
+           "that yield; `event-split`: the theta-method between impacts located within the step; `auto`: `exact` or `exponential` where they "
+           "can be, else `moreau-jean`, which options of its own (`theta`, `gamma`, "
            "`newton_tolerance`, `max_newton`, `max_halvings`, `contact_solver`) also choose when no scheme is given"},
      a.scheme);
   ar(Field{"dt", "time step", dimension::time, range::positive}, a.dt);

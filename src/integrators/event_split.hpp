@@ -1,0 +1,72 @@
+// The scheme `event-split` (theory.md, section 20): the theta-method between impacts that are located within the step, sustained contact at
+// position level. Parts of a step keep the factored matrix of the whole step (part_flow.hpp).
+#pragma once
+
+#include "integrators/impact_matrix.hpp"
+#include "integrators/part_flow.hpp"
+#include "integrators/scheme.hpp"
+
+namespace nsframe {
+
+class EventSplit : public Scheme {
+ public:
+  EventSplit(const AnalysisOptions& options, const System& system);
+  std::string name() const override { return "event-split"; }
+  void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
+  ModeResponse mode_response(double w, double xi, double h) const override;
+  long factorizations() const override { return matrix_.factorizations(); }
+  void save(Snapshot& snapshot) const override;
+  void restore(System& system, const Snapshot& snapshot) override;
+
+ private:
+  struct Event {
+    double time = 0;  // since the start of the part [s]
+    enum class Kind { none, closes, opens } kind = Kind::none;
+    int pair = -1;
+  };
+  // Contact at the start of a run, or after another scheme's step.
+  void start(const System& system);
+  PartLoad part_load(const System& system, double time, double length) const;
+  void begin_flow(const System& system, double time, double length, const std::vector<int>& held);
+  Event find_event(double length);
+  // Moves on to the next event, at most by `length`; returns by how much.
+  double advance(System& system, double time, double length, StepResult& result);
+  void evaluate(System& system, double s, double time, double length, StepResult& result);
+  void find_gaps(const System& system);
+  double gap_tolerance(const System& system, int pair) const;
+  double rate_tolerance(int pair) const;
+
+  // Impacts at this time, until no gap that is zero closes any more; then which pairs stay closed (event_split_contact.cpp).
+  void collide(const System& system, double time, double remaining, StepResult& result);
+  bool collide_once(const System& system, double time, double remaining, bool last, StepResult& result);
+  // Touching pairs that a law with restitution would let bounce ever faster from here on, too fast for the step.
+  std::vector<int> accumulating(const System& system, const std::vector<int>& pairs) const;
+  void settle(const System& system, double time, double remaining, StepResult& result);
+  void end_contact(int pair, double time, StepResult& result);
+  void remove_drift(const System& system);
+  VectorX solve_forces(const System& system, const MatrixX& W, const std::vector<int>& pairs, const VectorX& rhs, StepResult& result) const;
+  bool is_closed(int pair) const;
+
+  AnalysisOptions options_;
+  IterationMatrix matrix_;
+  ImpactMatrix impact_;
+  PartFlow flow_;
+  SparseMatrix stiffness_;              // in the factors
+  std::vector<bool> massless_;
+  double step_length_ = 0;
+  // where the motion stands
+  VectorX q_, v_, force_;               // displacement, velocity, internal force
+  std::vector<int> closed_;             // pairs in sustained contact, ascending
+  std::vector<bool> touching_;          // open pairs whose gap is zero
+  VectorX offset_;                      // rounding taken out of gaps that are zero [m]
+  VectorX gap_, rate_;
+  VectorX contact_impulse_, step_impulse_;  // of sustained contacts since they closed; of all pairs in the step [N s]
+  double largest_approach_ = 0;         // [m/s]
+  VectorX last_displacement_, last_velocity_;
+  // work space
+  VectorX history_, rate1_, rate2_, rate3_;  // gap coefficients of the flow
+  const VectorX* from_ = nullptr;       // histories at the start of the part, and where its end goes
+  VectorX *to_ = nullptr, *other_ = nullptr;
+};
+
+}  // namespace nsframe

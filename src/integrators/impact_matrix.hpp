@@ -1,0 +1,35 @@
+// The mass as impacts see it: an impulse changes velocities by M^-1 H' p, and DOFs without mass follow by the stiffness (theory.md, 290).
+#pragma once
+
+#include <vector>
+
+#include "assembly/system.hpp"
+
+namespace nsframe {
+
+class ImpactMatrix {
+ public:
+  // Factors M + eps K, with eps so small that K rules only where there is no mass.
+  explicit ImpactMatrix(const System& system);
+
+  // Velocity that a unit impulse between the pair makes, M^-1 H', free DOFs [1/kg]; not of compliant pairs.
+  const VectorX& jump(const Contacts& contacts, int pair);
+  // H M^-1 H' of some pairs [1/kg].
+  MatrixX delassus(const Contacts& contacts, const std::vector<int>& pairs);
+  // The displacement by which DOFs without mass yield to a residual force on them; the others do not move.
+  VectorX follow(const VectorX& residual) const;
+
+  bool massless(Eigen::Index dof) const { return massless_[static_cast<std::size_t>(dof)]; }
+  bool any_massless() const { return any_massless_; }
+  // Reached through DOFs without mass: no impulse.
+  bool compliant(int pair) const { return compliant_[static_cast<std::size_t>(pair)]; }
+
+ private:
+  Eigen::SimplicialLDLT<SparseMatrix> factor_;
+  double eps_ = 0;
+  std::vector<bool> massless_, compliant_;
+  bool any_massless_ = false;
+  std::vector<VectorX> jumps_;
+};
+
+}  // namespace nsframe
