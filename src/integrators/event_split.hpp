@@ -25,16 +25,18 @@ class EventSplit : public Scheme {
     int pair = -1;
   };
   // Contact at the start of a run, or after another scheme's step.
-  void start(const System& system);
+  void start(System& system);
+  // Moves what has no mass to where it rests.
+  void rest_massless(System& system);
   PartLoad part_load(const System& system, double time, double length) const;
   void begin_flow(const System& system, double time, double length, const std::vector<int>& held);
   Event find_event(double length);
   // Moves on to the next event, at most by `length`; returns by how much.
   double advance(System& system, double time, double length, StepResult& result);
-  void evaluate(System& system, double s, double time, double length, StepResult& result);
+  void evaluate(System& system, double s, double time, StepResult& result);
   void find_gaps(const System& system);
   double gap_tolerance(const System& system, int pair) const;
-  double rate_tolerance(int pair) const;
+  double rate_tolerance() const;
 
   // Impacts at this time, until no gap that is zero closes any more; then which pairs stay closed (event_split_contact.cpp).
   void collide(const System& system, double time, double remaining, StepResult& result);
@@ -46,6 +48,12 @@ class EventSplit : public Scheme {
   void remove_drift(const System& system);
   VectorX solve_forces(const System& system, const MatrixX& W, const std::vector<int>& pairs, const VectorX& rhs, StepResult& result) const;
   bool is_closed(int pair) const;
+  // A pair as the flow sees it: its gap begins with the rate momentum' v, and a unit impulse changes v by `jump` = M^-1 momentum.
+  struct Contact {
+    VectorX momentum, jump;
+  };
+  const Contact& contact(const System& system, int pair);
+  MatrixX flexibility(const System& system, const std::vector<int>& pairs);  // H J^-1 H'
 
   AnalysisOptions options_;
   IterationMatrix matrix_;
@@ -59,7 +67,9 @@ class EventSplit : public Scheme {
   std::vector<int> closed_;             // pairs in sustained contact, ascending
   std::vector<bool> touching_;          // open pairs whose gap is zero
   VectorX offset_;                      // rounding taken out of gaps that are zero [m]
-  VectorX gap_, rate_;
+  VectorX gap_, rate_;                  // rates only of pairs that touch, as the flow begins with them
+  std::vector<Contact> contacts_;       // of the factorization
+  long contacts_factored_ = -1;
   VectorX contact_impulse_, step_impulse_;  // of sustained contacts since they closed; of all pairs in the step [N s]
   double largest_approach_ = 0;         // [m/s]
   VectorX last_displacement_, last_velocity_;

@@ -27,7 +27,34 @@ VectorX EventSplit::solve_forces(const System& system, const MatrixX& W, const s
   return solution.impulse;
 }
 
+const EventSplit::Contact& EventSplit::contact(const System& system, int pair) {
+  if (contacts_factored_ != matrix_.factorizations()) {
+    contacts_.assign(static_cast<std::size_t>(system.contacts().size()), {});
+    contacts_factored_ = matrix_.factorizations();
+  }
+  Contact& cached = contacts_[static_cast<std::size_t>(pair)];
+  if (cached.momentum.size() > 0) return cached;
+  const VectorX& response = matrix_.response(system.contacts(), pair);  // (M + a C) J^-1 H'
+  cached.momentum = system.mass() * response;
+  system.damping.add_force(system.assembler.blocks(), options_.theta * step_length_, response, cached.momentum);
+  cached.jump = impact_.velocity_change(cached.momentum);
+  return cached;
+}
+
+MatrixX EventSplit::flexibility(const System& system, const std::vector<int>& pairs) {
+  const auto count = static_cast<Eigen::Index>(pairs.size());
+  MatrixX W(count, count);
+  for (Eigen::Index b = 0; b < count; ++b) {
+    const VectorX& response = matrix_.response(system.contacts(), pairs[static_cast<std::size_t>(b)]);
+    for (Eigen::Index a = 0; a < count; ++a) W(a, b) = system.contacts().jacobian.row(pairs[static_cast<std::size_t>(a)]).dot(response);
+  }
+  return W;
+}
+
 void EventSplit::collide(const System& system, double time, double remaining, StepResult& result) {
+  for (int c = 0; c < system.contacts().size(); ++c) {
+    if (is_closed(c) || touching_[static_cast<std::size_t>(c)]) rate_[c] = contact(system, c).momentum.dot(v_);
+  }
   for (int round = 0; round <= most_rounds; ++round) {
     const bool last = round == most_rounds;
     if (!collide_once(system, time, remaining, last, result)) break;
@@ -39,87 +66,81 @@ void EventSplit::collide(const System& system, double time, double remaining, St
 std::vector<int> EventSplit::accumulating(const System& system, const std::vector<int>& pairs) const {
   std::vector<int> found;
   for (const int c : pairs) {
-    if (is_closed(c) || !(rate_[c] > rate_tolerance(c))) continue;
+    if (is_closed(c) || !(rate_[c] > rate_tolerance())) continue;
     const double e = system.contacts().restitution[c];
     // the flow returns after -c1 / c2, and all further bounces take 1 / (1 - e) times as long
-    const bool returns = rate2_[c] < 0 && -rate1_[c] >= rate2_[c] * shortest_tail * step_length_ * (1 - e);
-    if (rate1_[c] <= 0 || returns) found.push_back(c);
+    if (rate2_[c] < 0 && -rate1_[c] >= rate2_[c] * shortest_tail * step_length_ * (1 - e)) found.push_back(c);
   }
   return found;
 }
 
 bool EventSplit::collide_once(const System& system, double time, double remaining, bool last, StepResult& result) {
-  const Contacts& contacts = system.contacts();
   std::vector<int> pairs;
   bool closing = false;
-  for (int c = 0; c < contacts.size(); ++c) {
+  for (int c = 0; c < system.contacts().size(); ++c) {
     if (impact_.compliant(c)) continue;
     const bool closed = is_closed(c);
-    if (!closed && (!touching_[static_cast<std::size_t>(c)] || (rate_[c] > rate_tolerance(c) && !last))) continue;
+    if (!closed && (!touching_[static_cast<std::size_t>(c)] || (rate_[c] > rate_tolerance() && !last))) continue;
     pairs.push_back(c);
-    closing = closing || rate_[c] < -rate_tolerance(c);
+    closing = closing || rate_[c] < -rate_tolerance();
   }
   if (!closing) return false;
+  const auto count = static_cast<Eigen::Index>(pairs.size());
+  MatrixX W(count, count);
+  for (Eigen::Index b = 0; b < count; ++b) {
+    const VectorX& jump = contact(system, pairs[static_cast<std::size_t>(b)]).jump;
+    for (Eigen::Index a = 0; a < count; ++a) W(a, b) = contact(system, pairs[static_cast<std::size_t>(a)]).momentum.dot(jump);
+  }
   for (const int c : pairs) largest_approach_ = std::max(largest_approach_, -rate_[c]);
-  const MatrixX W = impact_.delassus(contacts, pairs);
-  const VectorX before = rate_, velocity = v_;
-  std::vector<int> plastic;
-  VectorX impulse, change;
+  const VectorX before = rate_(pairs), velocity = v_;
+  std::vector<bool> plastic(pairs.size(), last);
+  for (std::size_t k = 0; k < pairs.size(); ++k) plastic[k] = plastic[k] || is_closed(pairs[k]);
+  VectorX impulse, change, rhs(count);
   for (;;) {
-    VectorX rhs(static_cast<Eigen::Index>(pairs.size()));
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      const int c = pairs[k];
-      const bool stops = last || is_closed(c) || std::binary_search(plastic.begin(), plastic.end(), c);
-      rhs[static_cast<Eigen::Index>(k)] = (1 + (stops ? 0 : contacts.restitution[c])) * before[c];
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      rhs[k] = (1 + (plastic[i] ? 0 : system.contacts().restitution[pairs[i]])) * before[k];
     }
     impulse = solve_forces(system, W, pairs, rhs, result);
     change.setZero(v_.size());
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      const double p = impulse[static_cast<Eigen::Index>(k)];
-      if (p > 0) change += p * impact_.jump(contacts, pairs[k]);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      if (impulse[k] > 0) change += impulse[k] * contact(system, pairs[static_cast<std::size_t>(k)]).jump;
     }
     v_ = velocity + change;
-    rate_ = contacts.jacobian * v_;
+    rate_(pairs) = before + W * impulse;
     begin_flow(system, time, remaining, {});
-    const std::vector<int> more = accumulating(system, pairs);
-    if (more.empty() || last) break;
+    const std::vector<int> more = last ? std::vector<int>() : accumulating(system, pairs);
+    if (more.empty()) break;
     result.accumulations.ended += static_cast<long>(more.size());
-    plastic.insert(plastic.end(), more.begin(), more.end());
-    std::sort(plastic.begin(), plastic.end());
+    for (std::size_t k = 0; k < pairs.size(); ++k) plastic[k] = plastic[k] || std::binary_search(more.begin(), more.end(), pairs[k]);
   }
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const int c = pairs[k];
-    const double p = impulse[static_cast<Eigen::Index>(k)];
-    if (p <= 0) continue;
-    step_impulse_[c] += p;
-    result.contact -= 0.5 * p * (before[c] + rate_[c]);
-    result.impacts.push_back({time, c, -before[c], p, before[c], rate_[c]});
+  result.contact -= change.dot(system.mass() * (velocity + 0.5 * change));
+  for (Eigen::Index k = 0; k < count; ++k) {
+    if (!(impulse[k] > 0)) continue;
+    const int c = pairs[static_cast<std::size_t>(k)];
+    step_impulse_[c] += impulse[k];
+    result.impacts.push_back({time, c, -before[k], impulse[k], before[k], rate_[c]});
   }
   result.jumps.push_back({time, std::move(change)});
   return true;
 }
 
 void EventSplit::settle(const System& system, double time, double remaining, StepResult& result) {
-  const Contacts& contacts = system.contacts();
   std::vector<int> candidates, closed;
-  for (int c = 0; c < contacts.size(); ++c) {
-    const bool was = is_closed(c), touches = touching_[static_cast<std::size_t>(c)];
-    if (!was && !touches) continue;
-    if (impact_.compliant(c) || std::abs(rate_[c]) <= rate_tolerance(c)) candidates.push_back(c);
+  for (int c = 0; c < system.contacts().size(); ++c) {
+    const bool was = is_closed(c), slow = impact_.compliant(c) || std::abs(rate_[c]) <= rate_tolerance();
+    if (was || (touching_[static_cast<std::size_t>(c)] && slow)) candidates.push_back(c);
   }
   if (!candidates.empty()) {
     begin_flow(system, time, remaining, {});
     const auto count = static_cast<Eigen::Index>(candidates.size());
     // constant forces that keep the gaps open at the end of the step
-    MatrixX W(count, count);
     VectorX rhs(count);
     for (Eigen::Index b = 0; b < count; ++b) {
       const int c = candidates[static_cast<std::size_t>(b)];
       rhs[b] = (rate1_[c] + remaining * (rate2_[c] + remaining * rate3_[c])) / (options_.theta * remaining);
-      const VectorX& response = matrix_.response(contacts, c);
-      for (Eigen::Index a = 0; a < count; ++a) W(a, b) = contacts.jacobian.row(candidates[static_cast<std::size_t>(a)]).dot(response);
     }
-    const VectorX force = solve_forces(system, W, candidates, rhs, result);
+    const VectorX force = solve_forces(system, flexibility(system, candidates), candidates, rhs, result);
     const double most = force.maxCoeff();
     for (Eigen::Index k = 0; k < count; ++k) {
       if (force[k] > 1e-12 * most) closed.push_back(candidates[static_cast<std::size_t>(k)]);
@@ -130,29 +151,14 @@ void EventSplit::settle(const System& system, double time, double remaining, Ste
   }
   closed_ = closed;
   for (const int c : closed_) touching_[static_cast<std::size_t>(c)] = false;
-  if (!closed_.empty()) remove_drift(system);
+  remove_drift(system);
 }
 
+// Rounding in the gaps of sustained contacts.
 void EventSplit::remove_drift(const System& system) {
-  std::vector<int> rigid;
-  for (const int c : closed_) {
-    if (!impact_.compliant(c)) rigid.push_back(c);
-  }
-  if (rigid.empty()) return;
-  const Contacts& contacts = system.contacts();
-  const MatrixX W = impact_.delassus(contacts, rigid);
-  const VectorX scale = W.diagonal().cwiseSqrt().cwiseInverse();
-  Eigen::CompleteOrthogonalDecomposition<MatrixX> factor;
-  factor.setThreshold(1e-12);
-  factor.compute(scale.asDiagonal() * W * scale.asDiagonal());
-  find_gaps(system);
-  const VectorX gap = scale.cwiseProduct(VectorX(gap_(rigid))), rate = scale.cwiseProduct(VectorX(rate_(rigid)));
-  const VectorX x = scale.cwiseProduct(VectorX(factor.solve(gap))), y = scale.cwiseProduct(VectorX(factor.solve(rate)));
-  for (std::size_t k = 0; k < rigid.size(); ++k) {
-    const VectorX& jump = impact_.jump(contacts, rigid[k]);
-    q_ -= x[static_cast<Eigen::Index>(k)] * jump;
-    v_ -= y[static_cast<Eigen::Index>(k)] * jump;
-  }
+  if (closed_.empty()) return;
+  flow_.hold(system.contacts(), closed_);
+  flow_.close_gaps(VectorX(gap_(closed_)), q_);
   find_gaps(system);
 }
 

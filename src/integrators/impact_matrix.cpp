@@ -28,28 +28,11 @@ ImpactMatrix::ImpactMatrix(const System& system) {
   factor_.compute(SparseMatrix(M + 0.5 * eps_ * (K + SparseMatrix(K.transpose()))));
   if (factor_.info() != Eigen::Success) throw ConvergenceError("the mass matrix is singular where the stiffness is, too");
   const Contacts& contacts = system.contacts();
-  jumps_.resize(static_cast<std::size_t>(contacts.size()));
   for (int c = 0; c < contacts.size(); ++c) {
     bool touched = false;
     for (SparseRows::InnerIterator entry(contacts.jacobian, c); entry; ++entry) touched = touched || massless(entry.col());
     compliant_.push_back(touched);
   }
-}
-
-const VectorX& ImpactMatrix::jump(const Contacts& contacts, int pair) {
-  VectorX& cached = jumps_[static_cast<std::size_t>(pair)];
-  if (cached.size() == 0) cached = factor_.solve(VectorX(contacts.jacobian.row(pair).transpose()));
-  return cached;
-}
-
-MatrixX ImpactMatrix::delassus(const Contacts& contacts, const std::vector<int>& pairs) {
-  const auto count = static_cast<Eigen::Index>(pairs.size());
-  MatrixX W(count, count);
-  for (Eigen::Index b = 0; b < count; ++b) {
-    const VectorX& response = jump(contacts, pairs[static_cast<std::size_t>(b)]);
-    for (Eigen::Index a = 0; a < count; ++a) W(a, b) = contacts.jacobian.row(pairs[static_cast<std::size_t>(a)]).dot(response);
-  }
-  return W;
 }
 
 VectorX ImpactMatrix::follow(const VectorX& residual) const {

@@ -12,10 +12,8 @@ class ImpactMatrix {
   // Factors M + eps K, with eps so small that K rules only where there is no mass.
   explicit ImpactMatrix(const System& system);
 
-  // Velocity that a unit impulse between the pair makes, M^-1 H', free DOFs [1/kg]; not of compliant pairs.
-  const VectorX& jump(const Contacts& contacts, int pair);
-  // H M^-1 H' of some pairs [1/kg].
-  MatrixX delassus(const Contacts& contacts, const std::vector<int>& pairs);
+  // M^-1 of a change of momentum.
+  VectorX velocity_change(const VectorX& momentum) const { return factor_.solve(momentum); }
   // The displacement by which DOFs without mass yield to a residual force on them; the others do not move.
   VectorX follow(const VectorX& residual) const;
 
@@ -29,7 +27,6 @@ class ImpactMatrix {
   double eps_ = 0;
   std::vector<bool> massless_, compliant_;
   bool any_massless_ = false;
-  std::vector<VectorX> jumps_;
 };
 
 }  // namespace nsframe

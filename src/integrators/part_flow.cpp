@@ -19,16 +19,24 @@ void PartFlow::hold(const Contacts& contacts, const std::vector<int>& closed) {
   set_.compute(scale_.asDiagonal() * W * scale_.asDiagonal());
 }
 
-void PartFlow::solve(const VectorX& rhs, VectorX& x, VectorX* multipliers) {
+VectorX PartFlow::multipliers(const VectorX& gap) const { return -scale_.cwiseProduct(VectorX(set_.solve(VectorX(scale_.cwiseProduct(gap))))); }
+
+void PartFlow::add_responses(const VectorX& forces, VectorX& x) {
+  for (std::size_t k = 0; k < held_.size(); ++k) x += forces[static_cast<Eigen::Index>(k)] * matrix_.response(*contacts_, held_[k]);
+}
+
+void PartFlow::close_gaps(const VectorX& gap, VectorX& q) { add_responses(multipliers(gap), q); }
+
+void PartFlow::solve(const VectorX& rhs, VectorX& x, VectorX* forces) {
   matrix_.solve(rhs, x);
   const auto count = static_cast<Eigen::Index>(held_.size());
-  if (multipliers) multipliers->setZero(count);
+  if (forces) forces->setZero(count);
   if (count == 0) return;
-  VectorX wrong(count);
-  for (Eigen::Index k = 0; k < count; ++k) wrong[k] = -scale_[k] * contacts_->jacobian.row(held_[static_cast<std::size_t>(k)]).dot(x);
-  const VectorX l = scale_.cwiseProduct(VectorX(set_.solve(wrong)));
-  for (Eigen::Index k = 0; k < count; ++k) x += l[k] * matrix_.response(*contacts_, held_[static_cast<std::size_t>(k)]);
-  if (multipliers) *multipliers = l;
+  VectorX gap(count);
+  for (Eigen::Index k = 0; k < count; ++k) gap[k] = contacts_->jacobian.row(held_[static_cast<std::size_t>(k)]).dot(x);
+  const VectorX l = multipliers(gap);
+  add_responses(l, x);
+  if (forces) *forces = l;
 }
 
 void PartFlow::begin(const System& system, const VectorX& q, const VectorX& v, const VectorX& P, const PartLoad& load,

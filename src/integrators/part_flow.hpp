@@ -32,12 +32,16 @@ class PartFlow {
   // Force and impulse of held pair number k at s.
   double force(std::size_t k, double s) const;
   double impulse(std::size_t k, double s) const;
-  // x = J^-1 rhs with the held gaps unchanged; the multipliers too where wanted.
-  void solve(const VectorX& rhs, VectorX& x, VectorX* multipliers = nullptr);
-  const VectorX& filtered_acceleration() const { return b2_; }
+  // x = J^-1 (rhs + H' forces) with the held gaps unchanged.
+  void solve(const VectorX& rhs, VectorX& x, VectorX* forces = nullptr);
+  // Moves q along J^-1 H' so that these gaps of the held pairs vanish.
+  void close_gaps(const VectorX& gap, VectorX& q);
   const std::vector<int>& held() const { return held_; }
 
  private:
+  VectorX multipliers(const VectorX& gap) const;
+  void add_responses(const VectorX& forces, VectorX& x);
+
   double theta_, h_ = 0;
   IterationMatrix& matrix_;
   const Contacts* contacts_ = nullptr;
