@@ -96,35 +96,30 @@ PartLoad EventSplit::part_load(const System& system, double time, double length)
 
 void EventSplit::begin_flow(const System& system, double time, double length, const std::vector<int>& held) {
   flow_.hold(system.contacts(), held);
-  flow_.begin(system, q_, v_, force_, part_load(system, time, length), massless_);
-  if (system.contacts().size() > 0) flow_.gap_coefficients(system.contacts(), rate1_, rate2_, rate3_);
+  flow_.begin(system, v_, force_, part_load(system, time, length), massless_);
+  if (system.contacts().size() > 0) flow_.gap_coefficients(system.contacts(), path_);
 }
 
 EventSplit::Event EventSplit::find_event(double length) {
   Event event{length, Event::Kind::none, -1};
-  double largest = 0;
-  for (std::size_t k = 0; k < closed_.size(); ++k) largest = std::max({largest, std::abs(flow_.force(k, 0)), std::abs(flow_.force(k, length))});
   for (std::size_t k = 0; k < closed_.size(); ++k) {
-    const double start = flow_.force(k, 0), end = flow_.force(k, length);
-    if (end >= -1e-12 * largest) continue;
-    const double at = start > 0 ? length * start / (start - end) : 0;
+    const double at = flow_.release(k, length);
     if (at < event.time) event = {at, Event::Kind::opens, closed_[k]};
   }
   for (int c = 0; c < static_cast<int>(touching_.size()); ++c) {
     if (is_closed(c)) continue;
-    const double s = event.time, a = rate1_[c], b = rate2_[c], d = rate3_[c];
-    if (gap_[c] - s * (std::abs(a) + s * (std::abs(b) + s * std::abs(d))) > 0) continue;
-    const double end = gap_[c] + s * (a + s * (b + s * d));
+    const double s = event.time, c0 = path_(c, 0), c1 = path_(c, 1), c2 = path_(c, 2), c3 = path_(c, 3);
+    if (gap_[c] - s * (std::abs(c0) + s * (std::abs(c1) + s * (std::abs(c2) + s * std::abs(c3)))) > 0) continue;
     double at = s;
     if (touching_[static_cast<std::size_t>(c)]) {
-      if (a <= 0) continue;  // settle() has seen that it is open at the end
-      // first root of a + b s + d s^2
-      const double root = b * b - 4 * a * d;
-      if (root < 0 || (b >= 0 && d >= 0)) continue;
-      const double first = b <= 0 ? 2 * a / (-b + std::sqrt(root)) : (-b - std::sqrt(root)) / (2 * d);
-      if (first > 0) at = std::min(s, first);
+      if (c0 <= 0) continue;  // settle() has seen that it is open at the end
+      const double a1 = c1 * s, a2 = c2 * s * s, a3 = c3 * s * s * s;  // of g / s
+      at = s * std::min(1.0, first_negative(Eigen::Vector4d(c0, c0 + a1 / 3, c0 + (2 * a1 + a2) / 3, c0 + a1 + a2 + a3), 0));
     } else {
-      at = first_fall({s, gap_[c], a, end, a + s * (2 * b + 3 * s * d), 0}, 0);
+      const double a0 = c0 * s, a1 = c1 * s * s, a2 = c2 * s * s * s, a3 = c3 * s * s * s * s;
+      VectorX b(5);
+      b << gap_[c], gap_[c] + a0 / 4, gap_[c] + a0 / 2 + a1 / 6, gap_[c] + 0.75 * a0 + a1 / 2 + a2 / 4, gap_[c] + a0 + a1 + a2 + a3;
+      at = s * std::min(1.0, first_negative(b, 0));
     }
     if (at < event.time) event = {at, Event::Kind::closes, c};
   }

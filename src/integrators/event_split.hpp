@@ -50,10 +50,11 @@ class EventSplit : public Scheme {
   bool is_closed(int pair) const;
   // A pair as the flow sees it: its gap begins with the rate momentum' v, and a unit impulse changes v by `jump` = M^-1 momentum.
   struct Contact {
-    VectorX momentum, jump;
+    VectorX momentum, jump, first;  // first: (M + a C) J^-1 H'
   };
   const Contact& contact(const System& system, int pair);
-  MatrixX flexibility(const System& system, const std::vector<int>& pairs);  // H J^-1 H'
+  // What constant forces between the pairs add to their gaps over a part of length s.
+  MatrixX opening(const System& system, const std::vector<int>& pairs, double s);
 
   AnalysisOptions options_;
   IterationMatrix matrix_;
@@ -74,7 +75,8 @@ class EventSplit : public Scheme {
   double largest_approach_ = 0;         // [m/s]
   VectorX last_displacement_, last_velocity_;
   // work space
-  VectorX history_, rate1_, rate2_, rate3_;  // gap coefficients of the flow
+  VectorX history_;
+  GapCoefficients path_;                // of the gaps in the flow
   const VectorX* from_ = nullptr;       // histories at the start of the part, and where its end goes
   VectorX *to_ = nullptr, *other_ = nullptr;
 };

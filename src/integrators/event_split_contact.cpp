@@ -34,21 +34,33 @@ const EventSplit::Contact& EventSplit::contact(const System& system, int pair) {
   }
   Contact& cached = contacts_[static_cast<std::size_t>(pair)];
   if (cached.momentum.size() > 0) return cached;
-  const VectorX& response = matrix_.response(system.contacts(), pair);  // (M + a C) J^-1 H'
-  cached.momentum = system.mass() * response;
-  system.damping.add_force(system.assembler.blocks(), options_.theta * step_length_, response, cached.momentum);
+  const auto momentum = [&](const VectorX& velocity) {
+    VectorX result = system.mass() * velocity;
+    system.damping.add_force(system.assembler.blocks(), options_.theta * step_length_, velocity, result);
+    return result;
+  };
+  const VectorX once = momentum(matrix_.response(system.contacts(), pair));
+  VectorX again;
+  matrix_.solve(once, again);
+  cached.first = once;
+  cached.momentum = 2 * once - momentum(again);
   cached.jump = impact_.velocity_change(cached.momentum);
   return cached;
 }
 
-MatrixX EventSplit::flexibility(const System& system, const std::vector<int>& pairs) {
+MatrixX EventSplit::opening(const System& system, const std::vector<int>& pairs, double s) {
   const auto count = static_cast<Eigen::Index>(pairs.size());
+  const double f = s / step_length_, g = 1 - f * f;
   MatrixX W(count, count);
   for (Eigen::Index b = 0; b < count; ++b) {
+    const VectorX& first = contact(system, pairs[static_cast<std::size_t>(b)]).first;
     const VectorX& response = matrix_.response(system.contacts(), pairs[static_cast<std::size_t>(b)]);
-    for (Eigen::Index a = 0; a < count; ++a) W(a, b) = system.contacts().jacobian.row(pairs[static_cast<std::size_t>(a)]).dot(response);
+    for (Eigen::Index a = 0; a < count; ++a) {
+      const int other = pairs[static_cast<std::size_t>(a)];
+      W(a, b) = (1 + g) * system.contacts().jacobian.row(other).dot(response) - g * first.dot(matrix_.response(system.contacts(), other));
+    }
   }
-  return W;
+  return options_.theta * s * s * W;
 }
 
 void EventSplit::collide(const System& system, double time, double remaining, StepResult& result) {
@@ -69,7 +81,7 @@ std::vector<int> EventSplit::accumulating(const System& system, const std::vecto
     if (is_closed(c) || !(rate_[c] > rate_tolerance())) continue;
     const double e = system.contacts().restitution[c];
     // the flow returns after -c1 / c2, and all further bounces take 1 / (1 - e) times as long
-    if (rate2_[c] < 0 && -rate1_[c] >= rate2_[c] * shortest_tail * step_length_ * (1 - e)) found.push_back(c);
+    if (path_(c, 1) < 0 && path_(c, 0) <= -path_(c, 1) * shortest_tail * step_length_ * (1 - e)) found.push_back(c);
   }
   return found;
 }
@@ -138,9 +150,9 @@ void EventSplit::settle(const System& system, double time, double remaining, Ste
     VectorX rhs(count);
     for (Eigen::Index b = 0; b < count; ++b) {
       const int c = candidates[static_cast<std::size_t>(b)];
-      rhs[b] = (rate1_[c] + remaining * (rate2_[c] + remaining * rate3_[c])) / (options_.theta * remaining);
+      rhs[b] = remaining * (path_(c, 0) + remaining * (path_(c, 1) + remaining * (path_(c, 2) + remaining * path_(c, 3))));
     }
-    const VectorX force = solve_forces(system, flexibility(system, candidates), candidates, rhs, result);
+    const VectorX force = solve_forces(system, opening(system, candidates, remaining), candidates, rhs, result);
     const double most = force.maxCoeff();
     for (Eigen::Index k = 0; k < count; ++k) {
       if (force[k] > 1e-12 * most) closed.push_back(candidates[static_cast<std::size_t>(k)]);

@@ -39,50 +39,57 @@ void PartFlow::solve(const VectorX& rhs, VectorX& x, VectorX* forces) {
   if (forces) *forces = l;
 }
 
-void PartFlow::begin(const System& system, const VectorX& q, const VectorX& v, const VectorX& P, const PartLoad& load,
-                     const std::vector<bool>& massless) {
-  q_ = q;
-  v_ = v;
-  VectorX damping = VectorX::Zero(v.size());
+void PartFlow::begin(const System& system, const VectorX& v, const VectorX& P, const PartLoad& load, const std::vector<bool>& massless) {
+  const double a = theta_ * h_;
+  const auto momentum = [&](const VectorX& velocity, VectorX& result) {  // (M + a C) velocity
+    result.noalias() = system.mass() * velocity;
+    system.damping.add_force(system.assembler.blocks(), a, velocity, result);
+  };
+  VectorX u1, u2, w1, w2, b, k1, l1, l3, damping = VectorX::Zero(v.size());
   system.damping.add_force(system.assembler.blocks(), 1, v, damping);
-  rhs_ = theta_ * h_ * damping;
-  rhs_.noalias() += system.mass() * v;
-  solve(rhs_, b1_, &l1_);
+  rhs_.noalias() = system.mass() * v;
+  rhs_ += a * damping;
+  solve(rhs_, u1, &k1);
+  momentum(u1, rhs_);
+  solve(rhs_, u2);
   rhs_ = load.start - P - damping;
-  solve(rhs_, b2_, &l2_);
-  if (load.slope.size() > 0) {
-    solve(load.slope, b3_, &l3_);
-  } else {
-    b3_.setZero(v.size());
-    l3_.setZero(static_cast<Eigen::Index>(held_.size()));
-  }
+  solve(rhs_, w1, &l1);
+  momentum(w1, rhs_);
+  solve(rhs_, w2);
+  v_ = v;
   for (Eigen::Index i = 0; i < v_.size(); ++i) {
-    if (massless[static_cast<std::size_t>(i)]) v_[i] = b1_[i];
+    if (massless[static_cast<std::size_t>(i)]) v_[i] = u1[i];
   }
+  const double h2 = h_ * h_;
+  move_ = {2 * u1 - u2, theta_ * (2 * w1 - w2), (u2 - u1) / h2, (theta_ / h2) * (w2 - w1)};
+  speed_ = {2 * w1 - w2, (3 * u1 - u2 - 2 * v_) / (theta_ * h2), (w2 - w1) / h2, (v_ - 2 * u1 + u2) / (theta_ * h2 * h2)};
+  impulse_ = {l1, k1 / (theta_ * h2)};
+  if (load.slope.size() == 0) return;
+  solve(load.slope, b, &l3);
+  move_[2] += (0.5 * theta_) * b;
+  speed_[1] += 0.5 * b;
+  impulse_[1] += 0.5 * l3;
 }
 
-VectorX PartFlow::mean_velocity(double s) const { return b1_ + (theta_ * s) * b2_ + (0.5 * theta_ * s * s) * b3_; }
+VectorX PartFlow::mean_velocity(double s) const { return move_[0] + s * (move_[1] + s * (move_[2] + s * move_[3])); }
 
-void PartFlow::displacement(double s, VectorX& q) const { q = q_ + s * mean_velocity(s); }
+void PartFlow::velocity(double s, VectorX& v) const { v = v_ + s * (speed_[0] + s * (speed_[1] + s * (speed_[2] + s * speed_[3]))); }
 
-void PartFlow::velocity(double s, VectorX& v) const {
-  v = v_ - (s * s / (theta_ * h_ * h_)) * (v_ - b1_) + s * b2_ + (0.5 * s * s) * b3_;
-}
-
-void PartFlow::gap_coefficients(const Contacts& contacts, VectorX& c1, VectorX& c2, VectorX& c3) const {
-  c1 = contacts.jacobian * b1_;
-  c2 = theta_ * (contacts.jacobian * b2_);
-  c3 = (0.5 * theta_) * (contacts.jacobian * b3_);
-}
-
-double PartFlow::force(std::size_t k, double s) const {
-  const auto i = static_cast<Eigen::Index>(k);
-  return l2_[i] + s * (2 / (theta_ * h_ * h_) * l1_[i] + l3_[i]);
+void PartFlow::gap_coefficients(const Contacts& contacts, GapCoefficients& c) const {
+  c.resize(contacts.size(), 4);
+  for (int i = 0; i < 4; ++i) c.col(i) = contacts.jacobian * move_[static_cast<std::size_t>(i)];
 }
 
 double PartFlow::impulse(std::size_t k, double s) const {
   const auto i = static_cast<Eigen::Index>(k);
-  return s * (l2_[i] + s * (l1_[i] / (theta_ * h_ * h_) + 0.5 * l3_[i]));
+  return s * (impulse_[0][i] + s * impulse_[1][i]);
+}
+
+double PartFlow::release(std::size_t k, double s) const {
+  const auto i = static_cast<Eigen::Index>(k);
+  const double start = impulse_[0][i], end = start + 2 * s * impulse_[1][i];
+  if (end >= -1e-12 * std::max(impulse_[0].maxCoeff(), std::abs(start))) return s;
+  return start > 0 ? s * start / (start - end) : 0;
 }
 
 }  // namespace nsframe

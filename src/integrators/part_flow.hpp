@@ -1,8 +1,10 @@
-// The motion over any part of a step with the factored matrix of the whole step (theory.md, 291-295): for M q'' + C q' + P = f0 + f1 s + H' l,
-//   q(s) = q + s [b1 + theta s b2 + theta s^2 b3 / 2],   v(s) = v - s^2 / (theta h^2) (v - b1) + s b2 + s^2 b3 / 2,
-//   J b1 = (M + a C) v + H' l1,   J b2 = f0 - P - C v + H' l2,   J b3 = f1 + H' l3,   J = M + a C + a^2 K,  a = theta h.
-// At s = h this is the theta-method; at any s it neither grows nor needs another factorization, and is of second order for theta = 1/2.
+// The motion over any part of a step with the factored matrix of the whole step (theory.md, 291-295). The theta-method over a part s = f h
+// needs J(s) = M + f a C + f^2 a^2 K, a = theta h; here J(s)^-1 is the beginning of its series in what J(h) lacks of it,
+//   J(s)^-1 ~ [1 + (1 - f^2) Y] J^-1,   Y = 1 - J^-1 (M + a C),   J = J(h),
+// so that motion, gaps and contact forces are polynomials in s. At s = h this is the theta-method; at any s it does not grow.
 #pragma once
+
+#include <array>
 
 #include "integrators/iteration_matrix.hpp"
 
@@ -13,6 +15,8 @@ struct PartLoad {
   VectorX start, slope;
 };
 
+using GapCoefficients = Eigen::Matrix<double, Eigen::Dynamic, 4>;
+
 class PartFlow {
  public:
   PartFlow(double theta, IterationMatrix& matrix) : theta_(theta), matrix_(matrix) {}
@@ -21,17 +25,17 @@ class PartFlow {
   void set_step(double h) { h_ = h; }
   // Pairs whose gaps stay as they are; ascending.
   void hold(const Contacts& contacts, const std::vector<int>& closed);
-  // From displacement q, velocity v and internal force P.
-  void begin(const System& system, const VectorX& q, const VectorX& v, const VectorX& P, const PartLoad& load, const std::vector<bool>& massless);
+  // From velocity v and internal force P.
+  void begin(const System& system, const VectorX& v, const VectorX& P, const PartLoad& load, const std::vector<bool>& massless);
 
-  void displacement(double s, VectorX& q) const;
   void velocity(double s, VectorX& v) const;
   VectorX mean_velocity(double s) const;
-  // Of all pairs: g(s) - g = s (c1 + s c2 + s^2 c3).
-  void gap_coefficients(const Contacts& contacts, VectorX& c1, VectorX& c2, VectorX& c3) const;
-  // Force and impulse of held pair number k at s.
-  double force(std::size_t k, double s) const;
+  // Of all pairs: g(s) - g = s (c_0 + s c_1 + s^2 c_2 + s^3 c_3), a column a coefficient.
+  void gap_coefficients(const Contacts& contacts, GapCoefficients& c) const;
+  // Impulse of held pair number k up to s.
   double impulse(std::size_t k, double s) const;
+  // First time up to s at which that force turns negative; s when it does not.
+  double release(std::size_t k, double s) const;
   // x = J^-1 (rhs + H' forces) with the held gaps unchanged.
   void solve(const VectorX& rhs, VectorX& x, VectorX* forces = nullptr);
   // Moves q along J^-1 H' so that these gaps of the held pairs vanish.
@@ -49,7 +53,9 @@ class PartFlow {
   long factored_ = -1;                       // factorization that the held pairs' matrix belongs to
   VectorX scale_;
   Eigen::CompleteOrthogonalDecomposition<MatrixX> set_;  // of the scaled H J^-1 H' of the held pairs
-  VectorX q_, v_, b1_, b2_, b3_, l1_, l2_, l3_, rhs_;
+  VectorX v_, rhs_;
+  std::array<VectorX, 4> move_, speed_;      // coefficients of [q(s) - q] / s and of v(s) - v: s^0.., s^1..
+  std::array<VectorX, 2> impulse_;           // s^1, s^2 of the held pairs' impulses: their forces are linear
 };
 
 }  // namespace nsframe
