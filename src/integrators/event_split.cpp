@@ -15,12 +15,23 @@ namespace {
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int most_parts = 100000;   // of a step
-constexpr int most_follow_ups = 40;  // of what has no mass, until it rests
+constexpr int most_follow_ups = 40;      // of what has no mass, until it rests
+constexpr double massless_rest = 1e-6;   // of the motion of a part, that may be left
+constexpr double least_acceleration = 1e-3;  // counts as zero when the residual is judged [m/s2]
+
+const System& accepted(const System& system) {
+  const char* why = nullptr;
+  if (system.assembler.rate_dependent()) why = "has elements whose force depends on the rate of deformation";
+  if (system.damping.follows_tangent()) why = "has Rayleigh damping on the committed or current stiffness";
+  if (why) throw InputError(fmt::format("error: scheme 'event-split' cannot take this scene: it {}; use scheme = \"moreau-jean\"", why));
+  return system;
+}
 
 }  // namespace
 
 EventSplit::EventSplit(const AnalysisOptions& options, const System& system)
-    : options_(options), matrix_(system), impact_(system), flow_(options.theta, matrix_), stiffness_(system.initial_stiffness) {
+    : options_(options), matrix_(accepted(system)), impact_(system), ladder_(options.algorithm),
+      least_scale_(least_acceleration * system.mass().diagonal().norm()), flow_(options.theta, matrix_), stiffness_(system.initial_stiffness) {
   const int pairs = system.contacts().size();
   touching_.assign(static_cast<std::size_t>(pairs), false);
   offset_ = contact_impulse_ = step_impulse_ = rate_ = VectorX::Zero(pairs);
@@ -42,25 +53,26 @@ void EventSplit::find_gaps(const System& system) {
   gap_ += system.contacts().initial_gap + offset_;
 }
 
-void EventSplit::rest_massless(System& system) {
+void EventSplit::rest_massless(System& system, double sufficient) {
   if (!impact_.any_massless()) return;
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_follow_ups; ++i) {
     const VectorX change = impact_.follow(system.static_load - force_);
     const double size = change.cwiseAbs().maxCoeff();
-    if (!(size > 4 * epsilon * q_.cwiseAbs().maxCoeff()) || size >= last) break;  // to rounding
+    if (!(size > sufficient + 4 * epsilon * q_.cwiseAbs().maxCoeff()) || size >= last) break;  // to rounding
     last = size;
     q_ += change;
     system.assembler.start_step(*from_, *to_);
     system.assembler.internal_force(q_, *from_, *to_, force_, false);
-    if (system.linear()) continue;
-    from_ = to_;
-    std::swap(to_, other_);
   }
 }
 
-void EventSplit::start(System& system) {
-  rest_massless(system);
+void EventSplit::start(System& system, const State& committed) {
+  rest_massless(system, 0);
+  if (!system.linear() && q_ != committed.displacement) {
+    from_ = to_;
+    std::swap(to_, other_);
+  }
   closed_.clear();
   std::fill(touching_.begin(), touching_.end(), false);
   offset_.setZero();
@@ -127,14 +139,17 @@ EventSplit::Event EventSplit::find_event(double length) {
 }
 
 void EventSplit::evaluate(System& system, double s, double time, StepResult& result) {
-  const VectorX mean = flow_.mean_velocity(s), change = s * mean, before = force_;
-  const VectorX old_velocity = v_;
+  const VectorX before = force_, old_velocity = v_;
+  VectorX change = s * flow_.mean_velocity(s);
   q_ += change;
   flow_.velocity(s, v_);
   system.assembler.start_step(*from_, *to_);
   system.assembler.internal_force(q_, *from_, *to_, force_, false);
   ++result.evaluations;
   if (!system.linear()) {
+    const VectorX reached = q_;
+    rest_massless(system, massless_rest * change.cwiseAbs().maxCoeff());
+    change += q_ - reached;
     VectorX departure = force_ - before, correction;
     departure.noalias() -= stiffness_ * change;
     flow_.solve(departure, correction);
@@ -142,7 +157,13 @@ void EventSplit::evaluate(System& system, double s, double time, StepResult& res
     from_ = to_;
     std::swap(to_, other_);
   }
-  result.strain += 0.5 * change.dot(before + force_);
+  account(system, time, s, change, old_velocity, before, result);
+}
+
+void EventSplit::account(const System& system, double time, double s, const VectorX& change, const VectorX& old_velocity, const VectorX& old_force,
+                         StepResult& result) {
+  const VectorX mean = change / s;
+  result.strain += 0.5 * change.dot(old_force + force_);
   VectorX load;
   system.load_impulse(time, time + s, load);
   result.input += load.dot(mean);
@@ -150,14 +171,37 @@ void EventSplit::evaluate(System& system, double s, double time, StepResult& res
   system.damping.add_force(system.assembler.blocks(), s, mean, damping);
   result.damping += damping.dot(mean);
   const VectorX velocity_change = v_ - old_velocity, momentum_change = system.mass() * velocity_change;
-  if (s == step_length_) {
-    result.numerical += (options_.theta - 0.5) * (velocity_change.dot(momentum_change) + change.dot(force_ - before));
-  } else {  // what the part's formulas leave (theory.md, 295)
-    result.numerical -= 0.5 * (v_ + old_velocity).dot(momentum_change) + 0.5 * change.dot(before + force_) + damping.dot(mean) - load.dot(mean);
+  if (s == step_length_ && (system.linear() || flow_.whole())) {
+    result.numerical += (options_.theta - 0.5) * (velocity_change.dot(momentum_change) + change.dot(force_ - old_force));
+  } else {  // what the part's formulas leave (theory.md, 298)
+    result.numerical -= 0.5 * (v_ + old_velocity).dot(momentum_change) + 0.5 * change.dot(old_force + force_) + damping.dot(mean) - load.dot(mean);
   }
 }
 
+// Far from contact: the gaps at both ends are larger than what their rates there could do in the whole step.
+bool EventSplit::clear(const System& system, double h) {
+  const SparseRows& H = system.contacts().jacobian;
+  if (H.rows() == 0) return true;
+  if (!closed_.empty() || std::find(touching_.begin(), touching_.end(), true) != touching_.end()) return false;
+  VectorX after;
+  flow_.velocity(h, after);
+  const VectorX reach = h * ((H * v_).cwiseAbs() + (H * after).cwiseAbs()), end = gap_ + h * (H * flow_.mean_velocity(h));
+  return (gap_.cwiseMin(end) - reach).minCoeff() > 0;
+}
+
 double EventSplit::advance(System& system, double time, double length, StepResult& result) {
+  if (length == step_length_ && closed_.empty()) {
+    VectorX load;
+    system.load_impulse(time, time + length, load);
+    flow_.begin_whole(system, v_, force_, load, massless_);
+    if (clear(system, length)) {
+      take_whole(system, time, result);
+      if (gap_.size() == 0) return length;
+      find_gaps(system);
+      result.least_gap = std::min(result.least_gap, gap_.minCoeff());
+      return length;
+    }
+  }
   begin_flow(system, time, length, closed_);
   const Event event = find_event(length);
   const double s = event.time;
@@ -212,7 +256,7 @@ void EventSplit::step(System& system, const State& committed, State& trial, doub
   to_ = &trial.history;
   other_ = &history_;
   history_.resize(committed.history.size());
-  if (fresh) start(system);
+  if (fresh) start(system, committed);
   if (system.contacts().size() > 0) {
     find_gaps(system);
     if (fresh) collide(system, committed.time, h, result);
@@ -251,6 +295,8 @@ void EventSplit::save(Snapshot& snapshot) const {
 
 void EventSplit::restore(System& system, const Snapshot& snapshot) {
   matrix_.restore(system, snapshot);
+  const std::vector<double>& factored = snapshot.array("iteration_matrix.stiffness");
+  if (!factored.empty()) std::copy(factored.begin(), factored.end(), stiffness_.valuePtr());
   VectorX flags = VectorX::Zero(offset_.size());
   snapshot.read("event_split.contact", flags);
   closed_.clear();

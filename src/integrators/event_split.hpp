@@ -2,6 +2,7 @@
 // position level. Parts of a step keep the factored matrix of the whole step (part_flow.hpp).
 #pragma once
 
+#include "integrators/algorithms.hpp"
 #include "integrators/impact_matrix.hpp"
 #include "integrators/part_flow.hpp"
 #include "integrators/scheme.hpp"
@@ -25,11 +26,18 @@ class EventSplit : public Scheme {
     int pair = -1;
   };
   // Contact at the start of a run, or after another scheme's step.
-  void start(System& system);
+  void start(System& system, const State& committed);
   // Moves what has no mass to where it rests.
-  void rest_massless(System& system);
+  void rest_massless(System& system, double sufficient);
   PartLoad part_load(const System& system, double time, double length) const;
   void begin_flow(const System& system, double time, double length, const std::vector<int>& held);
+  bool clear(const System& system, double h);
+  class WholeStep;
+  // A step without contact, which begin_whole() has begun; by the solution algorithms where something is nonlinear.
+  void take_whole(System& system, double time, StepResult& result);
+  // Ends a part of length s that moved by `change` at the mean velocity `mean`: energies, and histories where they have been written.
+  void account(const System& system, double time, double s, const VectorX& change, const VectorX& old_velocity, const VectorX& old_force,
+               StepResult& result);
   Event find_event(double length);
   // Moves on to the next event, at most by `length`; returns by how much.
   double advance(System& system, double time, double length, StepResult& result);
@@ -59,6 +67,8 @@ class EventSplit : public Scheme {
   AnalysisOptions options_;
   IterationMatrix matrix_;
   ImpactMatrix impact_;
+  Ladder ladder_;
+  double least_scale_;                  // force that counts as zero [N]
   PartFlow flow_;
   SparseMatrix stiffness_;              // in the factors
   std::vector<bool> massless_;

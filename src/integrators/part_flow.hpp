@@ -29,6 +29,13 @@ class PartFlow {
   void begin(const System& system, const VectorX& v, const VectorX& P, const PartLoad& load, const std::vector<bool>& massless);
 
   void velocity(double s, VectorX& v) const;
+  // Over the whole step only, with nothing held: one solution in place of four or five. `impulse`: of the loads [N s].
+  void begin_whole(const System& system, const VectorX& v, const VectorX& P, const VectorX& impulse, const std::vector<bool>& massless);
+
+  // The step so begun moves at this mean velocity.
+  void set_whole(const VectorX& mean);
+  bool whole() const { return whole_; }
+
   VectorX mean_velocity(double s) const;
   // Of all pairs: g(s) - g = s (c_0 + s c_1 + s^2 c_2 + s^3 c_3), a column a coefficient.
   void gap_coefficients(const Contacts& contacts, GapCoefficients& c) const;
@@ -53,7 +60,9 @@ class PartFlow {
   long factored_ = -1;                       // factorization that the held pairs' matrix belongs to
   VectorX scale_;
   Eigen::CompleteOrthogonalDecomposition<MatrixX> set_;  // of the scaled H J^-1 H' of the held pairs
+  bool whole_ = false;                       // the first coefficients are all
   VectorX v_, rhs_;
+  const std::vector<bool>* massless_ = nullptr;
   std::array<VectorX, 4> move_, speed_;      // coefficients of [q(s) - q] / s and of v(s) - v: s^0.., s^1..
   std::array<VectorX, 2> impulse_;           // s^1, s^2 of the held pairs' impulses: their forces are linear
 };
