@@ -173,7 +173,7 @@ void EventSplit::account(const System& system, double time, double s, const Vect
   const VectorX velocity_change = v_ - old_velocity, momentum_change = system.mass() * velocity_change;
   if (s == step_length_ && (system.linear() || flow_.whole())) {
     result.numerical += (options_.theta - 0.5) * (velocity_change.dot(momentum_change) + change.dot(force_ - old_force));
-  } else {  // what the part's formulas leave (theory.md, 298)
+  } else {  // what the part's formulas leave (theory.md, 294)
     result.numerical -= 0.5 * (v_ + old_velocity).dot(momentum_change) + 0.5 * change.dot(old_force + force_) + damping.dot(mean) - load.dot(mean);
   }
 }

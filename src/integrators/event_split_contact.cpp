@@ -1,4 +1,4 @@
-// Impacts and sustained contact of the scheme `event-split` (theory.md, 296-299).
+// Impacts and sustained contact of the scheme `event-split` (theory.md, 295-297).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,6 +31,9 @@ const EventSplit::Contact& EventSplit::contact(const System& system, int pair) {
   if (contacts_factored_ != matrix_.factorizations()) {
     contacts_.assign(static_cast<std::size_t>(system.contacts().size()), {});
     contacts_factored_ = matrix_.factorizations();
+    for (MatrixX* known : {&delassus_, &response_, &second_response_}) {
+      known->setConstant(system.contacts().size(), system.contacts().size(), std::numeric_limits<double>::quiet_NaN());
+    }
   }
   Contact& cached = contacts_[static_cast<std::size_t>(pair)];
   if (cached.momentum.size() > 0) return cached;
@@ -48,19 +51,32 @@ const EventSplit::Contact& EventSplit::contact(const System& system, int pair) {
   return cached;
 }
 
-MatrixX EventSplit::opening(const System& system, const std::vector<int>& pairs, double s) {
+template <class Entry>
+MatrixX EventSplit::gather(MatrixX& known, const std::vector<int>& pairs, const Entry& entry) {
   const auto count = static_cast<Eigen::Index>(pairs.size());
-  const double f = s / step_length_, g = 1 - f * f;
   MatrixX W(count, count);
   for (Eigen::Index b = 0; b < count; ++b) {
-    const VectorX& first = contact(system, pairs[static_cast<std::size_t>(b)]).first;
-    const VectorX& response = matrix_.response(system.contacts(), pairs[static_cast<std::size_t>(b)]);
     for (Eigen::Index a = 0; a < count; ++a) {
-      const int other = pairs[static_cast<std::size_t>(a)];
-      W(a, b) = (1 + g) * system.contacts().jacobian.row(other).dot(response) - g * first.dot(matrix_.response(system.contacts(), other));
+      double& value = known(pairs[static_cast<std::size_t>(a)], pairs[static_cast<std::size_t>(b)]);
+      if (std::isnan(value)) value = entry(pairs[static_cast<std::size_t>(a)], pairs[static_cast<std::size_t>(b)]);
+      W(a, b) = value;
     }
   }
-  return options_.theta * s * s * W;
+  return W;
+}
+
+MatrixX EventSplit::delassus(const System& system, const std::vector<int>& pairs) {
+  for (const int c : pairs) contact(system, c);
+  return gather(delassus_, pairs, [&](int a, int b) { return contact(system, a).momentum.dot(contact(system, b).jump); });
+}
+
+MatrixX EventSplit::opening(const System& system, const std::vector<int>& pairs, double s) {
+  for (const int c : pairs) contact(system, c);
+  const Contacts& contacts = system.contacts();
+  const MatrixX first = gather(response_, pairs, [&](int a, int b) { return contacts.jacobian.row(a).dot(matrix_.response(contacts, b)); });
+  const MatrixX second = gather(second_response_, pairs, [&](int a, int b) { return contact(system, b).first.dot(matrix_.response(contacts, a)); });
+  const double f = s / step_length_, g = 1 - f * f;
+  return options_.theta * s * s * ((1 + g) * first - g * second);
 }
 
 void EventSplit::collide(const System& system, double time, double remaining, StepResult& result) {
@@ -98,11 +114,7 @@ bool EventSplit::collide_once(const System& system, double time, double remainin
   }
   if (!closing) return false;
   const auto count = static_cast<Eigen::Index>(pairs.size());
-  MatrixX W(count, count);
-  for (Eigen::Index b = 0; b < count; ++b) {
-    const VectorX& jump = contact(system, pairs[static_cast<std::size_t>(b)]).jump;
-    for (Eigen::Index a = 0; a < count; ++a) W(a, b) = contact(system, pairs[static_cast<std::size_t>(a)]).momentum.dot(jump);
-  }
+  const MatrixX W = delassus(system, pairs);
   for (const int c : pairs) largest_approach_ = std::max(largest_approach_, -rate_[c]);
   const VectorX before = rate_(pairs), velocity = v_;
   std::vector<bool> plastic(pairs.size(), last);

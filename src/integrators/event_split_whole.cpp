@@ -1,4 +1,4 @@
-// Whole steps of the scheme `event-split` without contact, by the solution algorithms (theory.md, 299).
+// Whole steps of the scheme `event-split` without contact, by the solution algorithms (theory.md, section 20).
 #include <fmt/format.h>
 
 #include "base/errors.hpp"

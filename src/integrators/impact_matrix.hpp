@@ -1,4 +1,4 @@
-// The mass as impacts see it: an impulse changes velocities by M^-1 H' p, and DOFs without mass follow by the stiffness (theory.md, 290).
+// The mass as impacts see it: an impulse changes velocities by M^-1 H' p, and DOFs without mass follow by the stiffness (theory.md, 295).
 #pragma once
 
 #include <vector>

@@ -33,6 +33,8 @@ class IterationMatrix {
   void solve(const VectorX& rhs, VectorX& x);
   // J^-1 H' of one contact pair (computed once a factorization).
   const VectorX& response(const Contacts& contacts, int pair);
+  // x = J^-1 H' p, p on some pairs: from their responses, or by one solution where that costs less.
+  void respond(const Contacts& contacts, const std::vector<int>& pairs, const VectorX& p, VectorX& x);
 
  private:
   using SparseFactor = std::variant<std::unique_ptr<Eigen::SimplicialLDLT<SparseMatrix>>,

@@ -65,9 +65,9 @@ void MoreauJean::update_velocity(const System& system, const VectorX& change, St
   trial.velocity += change;
   if (active_.empty()) return;
   const Contacts& contacts = system.contacts();
-  for (std::size_t a = 0; a < active_.size(); ++a) {  // R knows of the impulses so far: they are found anew
-    const double p = impulse_[static_cast<Eigen::Index>(a)];
-    if (p != 0) trial.velocity -= p * matrix_.response(contacts, active_[a]);
+  if (!impulse_.isZero(0)) {  // R knows of the impulses so far: they are found anew
+    matrix_.respond(contacts, active_, impulse_, contact_change_);
+    trial.velocity -= contact_change_;
   }
   const auto count = static_cast<Eigen::Index>(active_.size());
   ContactProblem problem{MatrixX(count, count), VectorX(count)};
@@ -93,12 +93,9 @@ void MoreauJean::update_velocity(const System& system, const VectorX& change, St
   }
   impulse_ = std::move(solution.impulse);
   contact_change_.resize(0);
-  for (Eigen::Index a = 0; a < count; ++a) {
-    if (impulse_[a] == 0) continue;
-    if (contact_change_.size() == 0) contact_change_.setZero(trial.velocity.size());
-    contact_change_ += impulse_[a] * matrix_.response(contacts, active_[static_cast<std::size_t>(a)]);
-  }
-  if (contact_change_.size() > 0) trial.velocity += contact_change_;
+  if (impulse_.isZero(0)) return;
+  matrix_.respond(contacts, active_, impulse_, contact_change_);
+  trial.velocity += contact_change_;
 }
 
 void MoreauJean::add_impulses(const System& system) {

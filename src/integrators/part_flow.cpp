@@ -2,6 +2,12 @@
 
 namespace nsframe {
 
+namespace {
+
+constexpr double least_pivot = 1e-5;  // of Cholesky's factor of a matrix with a unit diagonal, above which pairs are not redundant
+
+}  // namespace
+
 void PartFlow::hold(const Contacts& contacts, const std::vector<int>& closed) {
   contacts_ = &contacts;
   if (closed == held_ && factored_ == matrix_.factorizations()) return;
@@ -15,17 +21,23 @@ void PartFlow::hold(const Contacts& contacts, const std::vector<int>& closed) {
     for (Eigen::Index a = 0; a < count; ++a) W(a, b) = contacts.jacobian.row(held_[static_cast<std::size_t>(a)]).dot(response);
   }
   scale_ = W.diagonal().cwiseSqrt().cwiseInverse();
+  const MatrixX scaled = scale_.asDiagonal() * W * scale_.asDiagonal();
+  cholesky_.compute(scaled);
+  redundant_ = cholesky_.info() != Eigen::Success || cholesky_.matrixLLT().diagonal().minCoeff() < least_pivot;
+  if (!redundant_) return;
   set_.setThreshold(1e-12);
-  set_.compute(scale_.asDiagonal() * W * scale_.asDiagonal());
+  set_.compute(scaled);
 }
 
-VectorX PartFlow::multipliers(const VectorX& gap) const { return -scale_.cwiseProduct(VectorX(set_.solve(VectorX(scale_.cwiseProduct(gap))))); }
-
-void PartFlow::add_responses(const VectorX& forces, VectorX& x) {
-  for (std::size_t k = 0; k < held_.size(); ++k) x += forces[static_cast<Eigen::Index>(k)] * matrix_.response(*contacts_, held_[k]);
+VectorX PartFlow::multipliers(const VectorX& gap) const {
+  const VectorX scaled = scale_.cwiseProduct(gap);
+  return -scale_.cwiseProduct(redundant_ ? VectorX(set_.solve(scaled)) : VectorX(cholesky_.solve(scaled)));
 }
 
-void PartFlow::close_gaps(const VectorX& gap, VectorX& q) { add_responses(multipliers(gap), q); }
+void PartFlow::close_gaps(const VectorX& gap, VectorX& q) {
+  matrix_.respond(*contacts_, held_, multipliers(gap), rhs_);
+  q += rhs_;
+}
 
 void PartFlow::solve(const VectorX& rhs, VectorX& x, VectorX* forces) {
   matrix_.solve(rhs, x);
@@ -35,7 +47,9 @@ void PartFlow::solve(const VectorX& rhs, VectorX& x, VectorX* forces) {
   VectorX gap(count);
   for (Eigen::Index k = 0; k < count; ++k) gap[k] = contacts_->jacobian.row(held_[static_cast<std::size_t>(k)]).dot(x);
   const VectorX l = multipliers(gap);
-  add_responses(l, x);
+  VectorX change;
+  matrix_.respond(*contacts_, held_, l, change);
+  x += change;
   if (forces) *forces = l;
 }
 

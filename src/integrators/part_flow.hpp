@@ -1,4 +1,4 @@
-// The motion over any part of a step with the factored matrix of the whole step (theory.md, 291-295). The theta-method over a part s = f h
+// The motion over any part of a step with the factored matrix of the whole step (theory.md, 290-294). The theta-method over a part s = f h
 // needs J(s) = M + f a C + f^2 a^2 K, a = theta h; here J(s)^-1 is the beginning of its series in what J(h) lacks of it,
 //   J(s)^-1 ~ [1 + (1 - f^2) Y] J^-1,   Y = 1 - J^-1 (M + a C),   J = J(h),
 // so that motion, gaps and contact forces are polynomials in s. At s = h this is the theta-method; at any s it does not grow.
@@ -51,7 +51,6 @@ class PartFlow {
 
  private:
   VectorX multipliers(const VectorX& gap) const;
-  void add_responses(const VectorX& forces, VectorX& x);
 
   double theta_, h_ = 0;
   IterationMatrix& matrix_;
@@ -59,7 +58,9 @@ class PartFlow {
   std::vector<int> held_;
   long factored_ = -1;                       // factorization that the held pairs' matrix belongs to
   VectorX scale_;
-  Eigen::CompleteOrthogonalDecomposition<MatrixX> set_;  // of the scaled H J^-1 H' of the held pairs
+  bool redundant_ = false;                   // of the held pairs, to rounding: then by `set_`
+  Eigen::LLT<MatrixX> cholesky_;             // of the scaled H J^-1 H' of the held pairs
+  Eigen::CompleteOrthogonalDecomposition<MatrixX> set_;
   bool whole_ = false;                       // the first coefficients are all
   VectorX v_, rhs_;
   const std::vector<bool>* massless_ = nullptr;

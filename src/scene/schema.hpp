@@ -149,7 +149,7 @@ void visit(Archive& ar, AnalysisOptions& a) {
      a.accuracy);
   ar(Field{"duration", "model time; 0: length of the longest motion", dimension::time, range::non_negative},
      a.duration);
-  ar(Field{"theta", "of the theta-method; the paper uses 1", {}, {0.5, 1}}, a.theta);
+  ar(Field{"theta", "of the theta-method; the paper uses 1; scheme `event-split` takes 0.5 when none is given", {}, {0.5, 1}}, a.theta);
   ar(Field{"gamma", "a pair is active where g + gamma dt g' < 0; the paper uses 1.5", {}, range::non_negative},
      a.gamma);
   ar(Field{"newton_tolerance", "residual relative to the largest force of the step", {}, range::positive},

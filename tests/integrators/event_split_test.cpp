@@ -267,7 +267,7 @@ TEST_CASE("event-split: converges to exact on random masses that hit each other"
     RC_ASSERT(fine.summary.completed);
     RC_LOG() << "error " << difference(exact, fine) << " impacts " << exact.summary.impacts.size() << " " << fine.summary.impacts.size();
     RC_ASSERT(difference(exact, fine) < 2e-5);  // of motions of centimetres
-    RC_ASSERT(fine.summary.max_penetration < 1e-9);
+    RC_ASSERT(fine.summary.max_penetration < 1e-7);  // within a step that a pair leaves open (theory.md, 297)
     RC_ASSERT(fine.summary.energy.contact > -1e-9 * energy);
     RC_ASSERT(fine.summary.worst_balance_error < 1e-7);
     RC_ASSERT(fine.summary.accumulations.plastic == 0);
