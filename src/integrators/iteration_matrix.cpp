@@ -12,6 +12,8 @@ namespace {
 
 // Solves from which on an inverse, about as dear as sixty of them, has paid for itself.
 constexpr int solves_before_inverse = 40;
+// Responses of so many pairs take as long to add up as a solution with sparse factors.
+constexpr int pairs_before_solution = 24;
 
 }  // namespace
 
@@ -180,6 +182,23 @@ const VectorX& IterationMatrix::tangent_response(const Contacts& contacts, int r
   VectorX& cached = tangent_responses_[static_cast<std::size_t>(row)];
   if (cached.size() == 0) solve(VectorX(contacts.tangents.row(row).transpose()), cached);
   return cached;
+}
+
+void IterationMatrix::respond(const Contacts& contacts, const std::vector<int>& pairs, const VectorX& p, VectorX& x) {
+  if (!invertible_ && (p.array() != 0).count() > pairs_before_solution) {
+    VectorX load = VectorX::Zero(contacts.jacobian.cols());
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const double force = p[static_cast<Eigen::Index>(k)];
+      if (force == 0) continue;
+      for (SparseRows::InnerIterator entry(contacts.jacobian, pairs[k]); entry; ++entry) load[entry.col()] += force * entry.value();
+    }
+    return solve(load, x);
+  }
+  x.setZero(contacts.jacobian.cols());
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const double force = p[static_cast<Eigen::Index>(k)];
+    if (force != 0) x += force * response(contacts, pairs[k]);
+  }
 }
 
 }  // namespace nsframe

@@ -35,6 +35,8 @@ class IterationMatrix {
   const VectorX& response(const Contacts& contacts, int pair);
   // J^-1 T' of a row of Contacts::tangents.
   const VectorX& tangent_response(const Contacts& contacts, int row);
+  // x = J^-1 H' p, p on some pairs: from their responses, or by one solution where that costs less.
+  void respond(const Contacts& contacts, const std::vector<int>& pairs, const VectorX& p, VectorX& x);
 
  private:
   using SparseFactor = std::variant<std::unique_ptr<Eigen::SimplicialLDLT<SparseMatrix>>,

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 
 #include "base/errors.hpp"
+#include "integrators/mode_response.hpp"
 
 namespace nsframe {
 
@@ -71,9 +71,9 @@ void MoreauJean::update_velocity(const System& system, const VectorX& change, St
   trial.velocity += change;
   if (active_.empty()) return;
   const Contacts& contacts = system.contacts();
-  for (std::size_t a = 0; a < active_.size(); ++a) {  // R knows of the impulses so far: they are found anew
-    const double p = impulse_[static_cast<Eigen::Index>(a)];
-    if (p != 0) trial.velocity -= p * matrix_.response(contacts, active_[a]);
+  if (!impulse_.isZero(0)) {  // R knows of the impulses so far: they are found anew
+    matrix_.respond(contacts, active_, impulse_, contact_change_);
+    trial.velocity -= contact_change_;
   }
   if (contacts.frictional()) add_friction_response(contacts, -1, trial.velocity);
   const auto count = static_cast<Eigen::Index>(active_.size());
@@ -105,13 +105,10 @@ void MoreauJean::update_velocity(const System& system, const VectorX& change, St
   impulse_ = std::move(solution.impulse);
   delassus_ = std::move(problem.delassus);
   contact_change_.resize(0);
-  for (Eigen::Index a = 0; a < count; ++a) {
-    if (impulse_[a] == 0) continue;
-    if (contact_change_.size() == 0) contact_change_.setZero(trial.velocity.size());
-    contact_change_ += impulse_[a] * matrix_.response(contacts, active_[static_cast<std::size_t>(a)]);
-  }
-  if (contact_change_.size() > 0 && contacts.frictional()) add_friction_response(contacts, 1, contact_change_);
-  if (contact_change_.size() > 0) trial.velocity += contact_change_;
+  if (impulse_.isZero(0)) return;
+  matrix_.respond(contacts, active_, impulse_, contact_change_);
+  if (contacts.frictional()) add_friction_response(contacts, 1, contact_change_);
+  trial.velocity += contact_change_;
 }
 
 void MoreauJean::add_impulses(const System& system) {
@@ -280,18 +277,6 @@ void MoreauJean::restore(System& system, const Snapshot& snapshot) {
   departure_.restore("moreau_jean.departure", system.mass().rows(), snapshot);
 }
 
-Scheme::ModeResponse MoreauJean::mode_response(double w, double xi, double h) const {
-  if (w == 0) return {0, 0};
-  const double theta = options_.theta, c = 2 * xi * w, k = w * w;
-  const double J = 1 + h * theta * c + h * h * theta * theta * k;
-  // v+ = from_v v + from_q q, q+ = q + h ((1 - theta) v + theta v+)
-  const double from_v = (1 - h * (1 - theta) * c - h * h * theta * (1 - theta) * k) / J, from_q = -h * k / J;
-  const double q_q = 1 + h * theta * from_q, q_v = h * (1 - theta) + h * theta * from_v;
-  const double half_trace = 0.5 * (q_q + from_v), determinant = q_q * from_v - q_v * from_q;
-  const std::complex<double> root = std::sqrt(std::complex<double>(half_trace * half_trace - determinant, 0));
-  const std::complex<double> eigenvalue = half_trace + root;
-  const std::complex<double> exponent = std::log(eigenvalue) / h;
-  return {-exponent.real() / std::abs(exponent), std::abs(exponent)};
-}
+Scheme::ModeResponse MoreauJean::mode_response(double w, double xi, double h) const { return theta_method_response(options_.theta, w, xi, h); }
 
 }  // namespace nsframe

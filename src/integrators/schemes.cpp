@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/errors.hpp"
+#include "integrators/event_split.hpp"
 #include "integrators/exact.hpp"
 #include "integrators/exponential.hpp"
 #include "integrators/moreau_jean.hpp"
@@ -17,6 +18,7 @@ using Factory = std::function<std::unique_ptr<Scheme>(const AnalysisOptions&, co
 
 const std::map<std::string, Factory>& factories() {
   static const std::map<std::string, Factory> schemes{
+      {"event-split", [](const AnalysisOptions& options, const System& system) { return std::make_unique<EventSplit>(options, system); }},
       {"exact", [](const AnalysisOptions& options, const System& system) { return std::make_unique<Exact>(options, system); }},
       {"exponential", [](const AnalysisOptions& options, const System& system) { return std::make_unique<Exponential>(options, system); }},
       {"moreau-jean", [](const AnalysisOptions& options, const System& system) { return std::make_unique<MoreauJean>(options, system); }},

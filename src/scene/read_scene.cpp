@@ -50,6 +50,7 @@ void find_scheme(Scene& scene) {
   const auto named = scene.places.find("analysis.scheme");
   if (named != scene.places.end()) {
     scene.analysis.scheme_at = named->second;
+    if (scene.analysis.scheme == "event-split" && !scene.places.contains("analysis.theta")) scene.analysis.theta = 0.5;
     return;
   }
   for (const char* key : {"theta", "gamma", "newton_tolerance", "max_newton", "max_halvings", "contact_solver"}) {

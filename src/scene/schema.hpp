@@ -149,7 +149,8 @@ template <class Archive>
 void visit(Archive& ar, AnalysisOptions& a) {
   ar(Field{"scheme",
            "time integration: `moreau-jean`; `exact` for linear scenes, where `dt` only says when results are kept; `exponential` for scenes "
-           "that yield; `auto`: `exact` or `exponential` where they can be, else `moreau-jean`, which options of its own (`theta`, `gamma`, "
+           "that yield; `event-split`: the theta-method between impacts located within the step; `auto`: `exact` or `exponential` where they "
+           "can be, else `moreau-jean`, which options of its own (`theta`, `gamma`, "
            "`newton_tolerance`, `max_newton`, `max_halvings`, `contact_solver`) also choose when no scheme is given"},
      a.scheme);
   ar(Field{"dt", "time step", dimension::time, range::positive}, a.dt);
@@ -159,7 +160,7 @@ void visit(Archive& ar, AnalysisOptions& a) {
      a.accuracy);
   ar(Field{"duration", "model time; 0: length of the longest motion", dimension::time, range::non_negative},
      a.duration);
-  ar(Field{"theta", "of the theta-method; the paper uses 1", {}, {0.5, 1}}, a.theta);
+  ar(Field{"theta", "of the theta-method; the paper uses 1; scheme `event-split` takes 0.5 when none is given", {}, {0.5, 1}}, a.theta);
   ar(Field{"gamma", "a pair is active where g + gamma dt g' < 0; the paper uses 1.5", {}, range::non_negative},
      a.gamma);
   ar(Field{"newton_tolerance", "residual relative to the largest force of the step", {}, range::positive},

@@ -78,6 +78,30 @@ TEST_CASE("sparse factors with Woodbury's identity solve like dense ones with th
   }
 }
 
+TEST_CASE("many impulses at once change the velocity as the sum of their responses does") {
+  ModelDescription d = towers(Geometry::linear);
+  for (int i = 0; i < 40; ++i) d.contacts.push_back(d.contacts[0]);  // more than are added up one by one
+  const Model model = build(d);
+  Simulation simulation(model, options(1, 1e-3, 1));
+  const System& system = simulation.system();
+  std::vector<int> pairs(41);
+  VectorX impulse(41), sum = VectorX::Zero(model.dofs.size()), x;
+  for (int i = 0; i < 41; ++i) {
+    pairs[static_cast<std::size_t>(i)] = i;
+    impulse[i] = 1 + std::sin(i);
+  }
+  for (const int dense_limit : {1000, 0}) {
+    IterationMatrix matrix(system, {dense_limit});
+    matrix.factor(system, simulation.initial_stiffness(), 1e-3);
+    sum.setZero();
+    for (const int c : pairs) sum += impulse[c] * matrix.response(system.contacts(), c);
+    matrix.respond(system.contacts(), pairs, impulse, x);
+    CHECK((x - sum).norm() < 1e-12 * sum.norm());
+    matrix.respond(system.contacts(), {3}, VectorX::Constant(1, 2.0), x);
+    CHECK((x - 2 * matrix.response(system.contacts(), 3)).norm() < 1e-15 * x.norm());
+  }
+}
+
 TEST_CASE("a matrix counts its factorizations and is ready for the step it was factored for only") {
   const Model model = build(towers(Geometry::linear));
   Simulation simulation(model, options(1, 1e-3, 1));

@@ -1,0 +1,14 @@
+// How a scheme moves one free mode, from its amplification matrix.
+#pragma once
+
+#include "base/types.hpp"
+#include "integrators/scheme.hpp"
+
+namespace nsframe {
+
+// Of the eigenvalue exp(-(xi + i sqrt(1 - xi^2)) w h) that belongs to the mode.
+Scheme::ModeResponse response_of(const Eigen::Matrix2d& amplification, double h);
+// Of the theta-method on a mode of circular frequency w [rad/s] and damping ratio xi.
+Scheme::ModeResponse theta_method_response(double theta, double w, double xi, double h);
+
+}  // namespace nsframe
