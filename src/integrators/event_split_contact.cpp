@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "contact/contact_problem.hpp"
+#include "contact/impact_law.hpp"
 #include "integrators/event_split.hpp"
 
 namespace nsframe {
@@ -119,13 +120,15 @@ bool EventSplit::collide_once(const System& system, double time, double remainin
   const VectorX before = rate_(pairs), velocity = v_;
   std::vector<bool> plastic(pairs.size(), last);
   for (std::size_t k = 0; k < pairs.size(); ++k) plastic[k] = plastic[k] || is_closed(pairs[k]);
-  VectorX impulse, change, rhs(count);
+  VectorX impulse, change, restitution(count);
   for (;;) {
     for (Eigen::Index k = 0; k < count; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      rhs[k] = (1 + (plastic[i] ? 0 : system.contacts().restitution[pairs[i]])) * before[k];
+      restitution[k] = plastic[i] ? 0 : system.contacts().restitution[pairs[i]];
     }
-    impulse = solve_forces(system, W, pairs, rhs, result);
+    impulse = options_.impact_law == ImpactLaw::newton
+                  ? solve_forces(system, W, pairs, before + restitution.cwiseProduct(before), result)
+                  : poisson_impact(W, before, restitution, [&](const ContactProblem& p) { return solve_forces(system, W, pairs, p.rhs, result); }).impulse;
     change.setZero(v_.size());
     for (Eigen::Index k = 0; k < count; ++k) {
       if (impulse[k] > 0) change += impulse[k] * contact(system, pairs[static_cast<std::size_t>(k)]).jump;
@@ -138,6 +141,7 @@ bool EventSplit::collide_once(const System& system, double time, double remainin
     result.accumulations.ended += static_cast<long>(more.size());
     for (std::size_t k = 0; k < pairs.size(); ++k) plastic[k] = plastic[k] || std::binary_search(more.begin(), more.end(), pairs[k]);
   }
+  result.created += created_energy(W, impulse, before, rate_(pairs));
   result.contact -= change.dot(system.mass() * (velocity + 0.5 * change));
   for (Eigen::Index k = 0; k < count; ++k) {
     if (!(impulse[k] > 0)) continue;
