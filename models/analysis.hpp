@@ -27,6 +27,7 @@ struct AnalysisOptions {
   std::vector<std::string> algorithm{"auto"};  // names in the registry (integrators/algorithms.hpp), tried in turn
   int max_halvings = 10;               // of a step whose Newton iterations fail
   ContactSolverKind contact_solver = ContactSolverKind::active_set;
+  bool projection = false;             // of penetrations to gap 0 after each step (moreau-jean)
   double contact_tolerance = 1e-12;    // complementarity error relative to the approach velocity
   int max_contact_sweeps = 100000;     // Gauss-Seidel only
   int threads = 1;

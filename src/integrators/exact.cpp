@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/errors.hpp"
+#include "integrators/penalty_forces.hpp"
 
 namespace nsframe {
 
@@ -13,6 +14,9 @@ const System& linear_only(const System& system, const Location& at) {
   Diagnostics diagnostics;
   if (!nonlinear.empty()) {
     diagnostics.error(at, fmt::format("scheme 'exact' is for linear scenes, and {} is nonlinear; use scheme = \"exponential\" or \"moreau-jean\"", nonlinear));
+  }
+  if (const std::string force = force_law_of(system.contacts()); !force.empty()) {
+    diagnostics.error(at, fmt::format("scheme 'exact' locates impacts and takes no penalty laws: {}; use scheme = \"moreau-jean\"", force));
   }
   diagnostics.throw_if_any();
   return system;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "integrators/penalty_forces.hpp"
 
 namespace nsframe {
 
@@ -23,6 +24,9 @@ const System& accepted(const System& system) {
   const char* why = nullptr;
   if (system.assembler.rate_dependent()) why = "has elements whose force depends on the rate of deformation";
   if (system.damping.follows_tangent()) why = "has Rayleigh damping on the committed or current stiffness";
+  if (const std::string force = force_law_of(system.contacts()); !force.empty()) {
+    throw InputError(fmt::format("error: scheme 'exponential' locates impacts and takes no penalty laws: {}; use scheme = \"moreau-jean\"", force));
+  }
   if (why) throw InputError(fmt::format("error: scheme 'exponential' cannot take this scene: it {}; use scheme = \"moreau-jean\"", why));
   return system;
 }

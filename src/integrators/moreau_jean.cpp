@@ -7,6 +7,7 @@
 #include <complex>
 
 #include "base/errors.hpp"
+#include "integrators/position_projection.hpp"
 
 namespace nsframe {
 
@@ -20,7 +21,14 @@ constexpr double least_acceleration = 1e-3;
 }  // namespace
 
 MoreauJean::MoreauJean(const AnalysisOptions& options, const System& system)
-    : options_(options), matrix_(system), ladder_(options.algorithm), least_scale_(least_acceleration * system.mass().diagonal().norm()) {}
+    : options_(options), matrix_(system), ladder_(options.algorithm), forces_(system), least_scale_(least_acceleration * system.mass().diagonal().norm()),
+      description_(forces_.describe(system.contacts(), options.dt)) {
+  if (!options.projection) return;
+  description_.emplace_back("penetrations are moved back to gap 0 after each step");
+  if (!system.assembler.rate_dependent()) return;
+  throw InputError("error: analysis.projection moves displacements without a rate, and this scene has elements whose force depends on "
+                   "the rate of deformation; set projection = false");
+}
 
 void MoreauJean::find_active_pairs(const System& system, const State& committed, double h, StepResult& result) {
   const Contacts& contacts = system.contacts();
@@ -31,9 +39,11 @@ void MoreauJean::find_active_pairs(const System& system, const State& committed,
   gap_ += contacts.initial_gap;
   rate_.noalias() = contacts.jacobian * committed.velocity;
   result.least_gap = gap_.minCoeff();
+  const double closed = options_.projection ? closed_gap : 0;  // a projected gap is 0 but for rounding
   for (int i = 0; i < contacts.size(); ++i) {
-    if (gap_[i] + options_.gamma * h * rate_[i] < 0) active_.push_back(i);
+    if (!forces_.is_force(i) && gap_[i] + options_.gamma * h * rate_[i] < closed) active_.push_back(i);
   }
+  forces_.start_step(contacts, committed, gap_, rate_, h, options_.theta);
 }
 
 void MoreauJean::predict(const System& system, const State& committed, double h, State& trial, StepResult& result) {
@@ -63,8 +73,12 @@ void MoreauJean::evaluate(System& system, const State& committed, State& trial, 
 
 void MoreauJean::update_velocity(const System& system, const VectorX& change, State& trial, StepResult& result) {
   trial.velocity += change;
-  if (active_.empty()) return;
+  if (in_contact()) solve_contact(system, trial, result);
+}
+
+void MoreauJean::solve_contact(const System& system, State& trial, StepResult& result) {
   const Contacts& contacts = system.contacts();
+  forces_.add_velocity(contacts, matrix_, -1, trial.velocity);
   for (std::size_t a = 0; a < active_.size(); ++a) {  // R knows of the impulses so far: they are found anew
     const double p = impulse_[static_cast<Eigen::Index>(a)];
     if (p != 0) trial.velocity -= p * matrix_.response(contacts, active_[a]);
@@ -80,9 +94,12 @@ void MoreauJean::update_velocity(const System& system, const VectorX& change, St
     }
   }
   const ContactOptions contact_options{options_.contact_tolerance, options_.max_contact_sweeps};
-  ContactSolution solution = options_.contact_solver == ContactSolverKind::active_set
-                                 ? solve_active_set(problem, contact_options, impulse_)
-                                 : solve_gauss_seidel(problem, contact_options, impulse_);
+  const auto solve = [&](const ContactProblem& impulses, const VectorX& guess) {
+    return options_.contact_solver == ContactSolverKind::active_set ? solve_active_set(impulses, contact_options, guess)
+                                                                    : solve_gauss_seidel(impulses, contact_options, guess);
+  };
+  ContactSolution solution = forces_.active() ? forces_.solve(contacts, matrix_, trial.velocity, active_, problem, impulse_, contact_options, solve)
+                                              : solve(problem, impulse_);
   result.complementarity_error = solution.error;
   if (!solution.converged) {
     Eigen::Index worst = 0;
@@ -99,6 +116,7 @@ void MoreauJean::update_velocity(const System& system, const VectorX& change, St
     contact_change_ += impulse_[a] * matrix_.response(contacts, active_[static_cast<std::size_t>(a)]);
   }
   if (contact_change_.size() > 0) trial.velocity += contact_change_;
+  forces_.add_velocity(contacts, matrix_, 1, trial.velocity);
 }
 
 void MoreauJean::add_impulses(const System& system) {
@@ -106,6 +124,7 @@ void MoreauJean::add_impulses(const System& system) {
   for (std::size_t a = 0; a < active_.size(); ++a) {
     residual_ -= impulse_[static_cast<Eigen::Index>(a)] * system.contacts().jacobian.row(active_[a]).transpose();
   }
+  forces_.subtract_impulses(system.contacts(), residual_);
 }
 
 double MoreauJean::force_scale(const State& trial, double h) const {
@@ -128,7 +147,8 @@ class MoreauJean::Step : public NonlinearStep {
       : scheme_(scheme), system_(system), committed_(committed), trial_(trial), h_(h), result_(result) {}
 
   void restart() override {
-    scheme_.impulse_ = VectorX::Zero(result_.active_pairs);
+    scheme_.impulse_ = VectorX::Zero(static_cast<Eigen::Index>(scheme_.active_.size()));
+    scheme_.forces_.restart();
     system_.assembler.start_step(committed_.history, trial_.history);
     trial_.velocity = committed_.velocity;
     predicted_ = !system_.linear() && has_factors();
@@ -140,7 +160,7 @@ class MoreauJean::Step : public NonlinearStep {
     evaluate(system_.damping.follows_tangent());
     if (predicted_) error_of_guess_ = residual() / (scheme_.options_.theta * h_);
   }
-  const VectorX& residual() const override { return scheme_.active_.empty() ? scheme_.free_residual_ : scheme_.residual_; }
+  const VectorX& residual() const override { return scheme_.in_contact() ? scheme_.residual_ : scheme_.free_residual_; }
   bool guess_may_stand() const override { return predicted_; }
   double error() const override { return result_.residual / scheme_.options_.newton_tolerance; }
   void factor(Tangent which) override {
@@ -178,7 +198,7 @@ class MoreauJean::Step : public NonlinearStep {
  private:
   void evaluate(bool with_tangent) {
     scheme_.evaluate(system_, committed_, trial_, h_, with_tangent);
-    if (!scheme_.active_.empty()) scheme_.add_impulses(system_);
+    if (scheme_.in_contact()) scheme_.add_impulses(system_);
     result_.residual = residual().norm() / std::max(scheme_.force_scale(trial_, h_), 1e-300);
   }
 
@@ -198,7 +218,7 @@ void MoreauJean::step(System& system, const State& committed, State& trial, doub
   result.jumps.clear();
   contact_change_.resize(0);
   find_active_pairs(system, committed, h, result);
-  result.active_pairs = static_cast<int>(active_.size());
+  result.active_pairs = static_cast<int>(active_.size()) + forces_.count();
   system.load_impulse(committed.time, committed.time + h, load_);
   Step problem(*this, system, committed, trial, h, result);
   if (!ladder_.climb(problem, options_.max_newton, result.attempts)) fail(system, committed, result);
@@ -211,11 +231,25 @@ void MoreauJean::step(System& system, const State& committed, State& trial, doub
   } else {
     trial.acceleration.setZero(trial.velocity.size());
   }
+  report(system, committed, trial, h, result);
+  if (options_.projection && !active_.empty()) project(system, committed, trial, h, result);
   if (system.damping.follows_tangent()) {
     const SparseMatrix& K = system.assembler.tangent();
     trial.damping_stiffness = Eigen::Map<const VectorX>(K.valuePtr(), K.nonZeros());
   }
-  report(system, committed, trial, h, result);
+}
+
+// What the shift does to internal forces and loads is work of the scheme, not of the contact.
+void MoreauJean::project(System& system, const State& committed, State& trial, double h, StepResult& result) {
+  const VectorX shift = shift_to_closed(system.contacts(), matrix_, active_, impulse_, trial.displacement);
+  if (shift.size() == 0) return;
+  const VectorX force = trial.internal_force;
+  trial.displacement += shift;
+  system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force, system.damping.follows_tangent());
+  const double strain = 0.5 * shift.dot(force + trial.internal_force), input = shift.dot(load_) / h;
+  result.strain += strain;
+  result.input += input;
+  result.numerical -= strain - input;
 }
 
 // Impacts and the energy of the step (theory.md, "Energy balance"): v_theta' R = 0 split into its terms, the part of the
@@ -244,6 +278,7 @@ void MoreauJean::report(const System& system, const State& committed, State& tri
     result.impacts.push_back({trial.time, pair, -before, p, before, after});
   }
   result.numerical *= options_.theta - 0.5;
+  forces_.report(contacts, committed, rate_, trial, result);
   if (system.assembler.rate_dependent()) {
     result.damping += rate_energy_.dissipated;
     result.strain += rate_energy_.stored;
@@ -251,6 +286,10 @@ void MoreauJean::report(const System& system, const State& committed, State& tri
   }
   // q+ = q + h v + theta h (v+ - v): as if the velocity jumped here
   if (contact_change_.size() > 0) result.jumps.push_back({committed.time + (1 - options_.theta) * h, contact_change_});
+}
+
+std::vector<Impact> MoreauJean::open_contacts(const System& system, const State& state) const {
+  return forces_.open_contacts(system.contacts(), state);
 }
 
 void MoreauJean::save(Snapshot& snapshot) const {

@@ -139,7 +139,7 @@ void visit(Archive& ar, AnalysisOptions& a) {
   ar(Field{"scheme",
            "time integration: `moreau-jean`; `exact` for linear scenes, where `dt` only says when results are kept; `exponential` for scenes "
            "that yield; `auto`: `exact` or `exponential` where they can be, else `moreau-jean`, which options of its own (`theta`, `gamma`, "
-           "`newton_tolerance`, `max_newton`, `max_halvings`, `contact_solver`) also choose when no scheme is given"},
+           "`newton_tolerance`, `max_newton`, `max_halvings`, `contact_solver`, `projection`) also choose when no scheme is given"},
      a.scheme);
   ar(Field{"dt", "time step", dimension::time, range::positive}, a.dt);
   ar(Field{"accuracy",
@@ -165,6 +165,8 @@ void visit(Archive& ar, AnalysisOptions& a) {
      a.algorithm);
   ar(Field{"max_halvings", "of a step whose iterations fail", {}, {0, 60}}, a.max_halvings);
   ar(Field{"contact_solver", "of the contact problem"}, a.contact_solver);
+  ar(Field{"projection", "moreau-jean: move penetrations of pairs with impulses back to gap 0 after each step, velocities as they are"},
+     a.projection);
   ar(Field{"contact_tolerance", "complementarity error relative to the approach velocity", {}, range::positive},
      a.contact_tolerance);
   ar(Field{"max_contact_sweeps", "gauss-seidel only", {}, {1, 1e9}}, a.max_contact_sweeps);
