@@ -59,8 +59,9 @@ void check_damping(const ContactLawChoice& choice, const ContactForceLaw& law, c
   if (choice.damping_ratio) return;
   for (const double e : restitutions) {
     if (e >= law.least_restitution) continue;
-    found.push_back({"restitution", fmt::format("restitution = {:g}: law '{}' needs at least {:g}, since its damping grows beyond all bounds towards 0",
-                                                e, law.name, law.least_restitution)});
+    found.push_back({"restitution",
+                     fmt::format("restitution = {:g}: law '{}' needs at least {:g}, since its damping grows beyond all bounds towards 0", e,
+                                 law.name, law.least_restitution)});
   }
 }
 
@@ -79,7 +80,8 @@ std::vector<std::string> contact_law_names() {
   return names;
 }
 
-double damping_constant(const ContactForceLaw& law, double stiffness, double effective_mass, double restitution, const std::optional<double>& xi) {
+double damping_constant(const ContactForceLaw& law, double stiffness, double effective_mass, double restitution,
+                        const std::optional<double>& xi) {
   if (law.coefficient == nullptr) return 0;
   const double coefficient = xi ? *xi : law.coefficient(restitution);
   return law.has_damping_ratio ? 2 * coefficient * std::sqrt(stiffness * effective_mass) : coefficient;

@@ -63,7 +63,9 @@ double effective_mass(const System& system, int pair) {
   const auto n = static_cast<Eigen::Index>(dofs.size());
   MatrixX M(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = 0; j < n; ++j) M(i, j) = system.mass().coeff(dofs[static_cast<std::size_t>(i)], dofs[static_cast<std::size_t>(j)]);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      M(i, j) = system.mass().coeff(dofs[static_cast<std::size_t>(i)], dofs[static_cast<std::size_t>(j)]);
+    }
   }
   VectorX own(n);
   for (Eigen::Index i = 0; i < n; ++i) own[i] = row[dofs[static_cast<std::size_t>(i)]];

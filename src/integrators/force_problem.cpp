@@ -111,7 +111,9 @@ ForceSolution solve_forces(const ForceProblem& problem, const ContactOptions& op
   const Eigen::Index n = p.size();
   Answers answers(problem), trial_answers(problem);
   double scale = std::numeric_limits<double>::min();
-  for (Eigen::Index a = 0; a < n; ++a) scale = std::max({scale, std::abs(problem.free[a]), std::abs(problem.pairs[static_cast<std::size_t>(a)].rate)});
+  for (Eigen::Index a = 0; a < n; ++a) {
+    scale = std::max({scale, std::abs(problem.free[a]), std::abs(problem.pairs[static_cast<std::size_t>(a)].rate)});
+  }
   double change = answers.find(p);
   for (solution.iterations = 0; solution.iterations < options.max_iterations; ++solution.iterations) {
     const double rounding = 16 * static_cast<double>(n) * epsilon * (problem.delassus.cwiseAbs() * p.cwiseAbs()).maxCoeff();

@@ -22,7 +22,7 @@ constexpr double least_acceleration = 1e-3;
 
 MoreauJean::MoreauJean(const AnalysisOptions& options, const System& system)
     : options_(options), matrix_(system), ladder_(options.algorithm), forces_(system), least_scale_(least_acceleration * system.mass().diagonal().norm()),
-      description_(forces_.describe(system.contacts(), options.dt)) {
+      description_(forces_.describe(system.contacts())) {
   if (!options.projection) return;
   description_.emplace_back("penetrations are moved back to gap 0 after each step");
   if (!system.assembler.rate_dependent()) return;
@@ -98,8 +98,9 @@ void MoreauJean::solve_contact(const System& system, State& trial, StepResult& r
     return options_.contact_solver == ContactSolverKind::active_set ? solve_active_set(impulses, contact_options, guess)
                                                                     : solve_gauss_seidel(impulses, contact_options, guess);
   };
-  ContactSolution solution = forces_.active() ? forces_.solve(contacts, matrix_, trial.velocity, active_, problem, impulse_, contact_options, solve)
-                                              : solve(problem, impulse_);
+  ContactSolution solution =
+      forces_.active() ? forces_.solve(contacts, matrix_, trial.velocity, active_, problem, impulse_, contact_options, solve)
+                       : solve(problem, impulse_);
   result.complementarity_error = solution.error;
   if (!solution.converged) {
     Eigen::Index worst = 0;
@@ -232,16 +233,28 @@ void MoreauJean::step(System& system, const State& committed, State& trial, doub
     trial.acceleration.setZero(trial.velocity.size());
   }
   report(system, committed, trial, h, result);
-  if (options_.projection && !active_.empty()) project(system, committed, trial, h, result);
+  if (options_.projection) project(system, committed, trial, h, result);
   if (system.damping.follows_tangent()) {
     const SparseMatrix& K = system.assembler.tangent();
     trial.damping_stiffness = Eigen::Map<const VectorX>(K.valuePtr(), K.nonZeros());
   }
 }
 
-// What the shift does to internal forces and loads is work of the scheme, not of the contact.
+// Pairs that carry an impulse, and those that closed in this step unforeseen. What the shift does to internal forces and loads is
+// work of the scheme, not of the contact.
 void MoreauJean::project(System& system, const State& committed, State& trial, double h, StepResult& result) {
-  const VectorX shift = shift_to_closed(system.contacts(), matrix_, active_, impulse_, trial.displacement);
+  const Contacts& contacts = system.contacts();
+  if (contacts.size() == 0) return;
+  const VectorX gap = contacts.jacobian * trial.displacement + contacts.initial_gap;
+  std::vector<ProjectedPair> pairs;
+  std::size_t next = 0;  // of active_, which rises
+  for (int i = 0; i < contacts.size(); ++i) {
+    const bool active = next < active_.size() && active_[next] == i;
+    if (active) ++next;
+    if (!active && (gap[i] >= 0 || forces_.is_force(i))) continue;
+    pairs.push_back({i, gap[i], trial.impulse[i] > 0 || gap_[i] >= -closed_gap});
+  }
+  const VectorX shift = shift_to_closed(contacts, matrix_, pairs);
   if (shift.size() == 0) return;
   const VectorX force = trial.internal_force;
   trial.displacement += shift;

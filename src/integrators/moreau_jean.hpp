@@ -39,7 +39,7 @@ class MoreauJean : public Scheme {
   void solve_contact(const System& system, State& trial, StepResult& result);
   // Fills residual_ = R with the contact impulses.
   void add_impulses(const System& system);
-  // Moves the penetrations of the pairs with impulses back to gap 0.
+  // Moves penetrations back to gap 0.
   void project(System& system, const State& committed, State& trial, double h, StepResult& result);
   double force_scale(const State& trial, double h) const;
   void report(const System& system, const State& committed, State& trial, double h, StepResult& result) const;

@@ -24,7 +24,8 @@ ContactEpisode episode(const State& state, std::size_t place) {
 }
 
 void put(State& state, std::size_t place, const ContactEpisode& e) {
-  state.contact_episodes.segment<episode_size>(episode_size * static_cast<Eigen::Index>(place)) << e.touches, e.start, e.rate_before, e.impulse;
+  const auto at = episode_size * static_cast<Eigen::Index>(place);
+  state.contact_episodes.segment<episode_size>(at) << e.touches, e.start, e.rate_before, e.impulse;
 }
 
 Impact ended_contact(const ContactEpisode& e, int pair, double time, double rate_after) {
@@ -55,7 +56,8 @@ ForcePair force_pair(const System& system, int pair) {
   if (out.law->has_damping_ratio && xi > 0 && mass == 0) {
     mass = effective_mass(system, pair);
     if (!(mass > 0)) {
-      throw InputError(fmt::format("error: contact pair '{}' meets DOFs without mass: its damping needs effective_mass", name(contacts, pair)));
+      throw InputError(fmt::format("error: contact pair '{}' meets DOFs without mass: its damping needs effective_mass",
+                                   name(contacts, pair)));
     }
   }
   out.damping = damping_constant(*out.law, out.stiffness, mass, contacts.restitution[pair], choice.damping_ratio);
@@ -65,7 +67,8 @@ ForcePair force_pair(const System& system, int pair) {
 }  // namespace
 
 VectorX no_contact_episodes(const Contacts& contacts) {
-  const auto forces = std::count_if(contacts.pairs.begin(), contacts.pairs.end(), [](const ContactPair& pair) { return pair.law.is_force(); });
+  const auto& pairs = contacts.pairs;
+  const auto forces = std::count_if(pairs.begin(), pairs.end(), [](const ContactPair& pair) { return pair.law.is_force(); });
   return VectorX::Zero(episode_size * forces);
 }
 
@@ -91,8 +94,9 @@ void PenaltyForces::start_step(const Contacts& contacts, const State& committed,
     const ContactEpisode now = episode(committed, k);
     if (pair.gap + reach * h * std::min(pair.rate, 0.0) > 0 && now.touches == 0) continue;
     ContactEpisode begins = now;
-    if (now.touches == 0) {  // within this step, if it does, at the rate that the last acceleration leads to
-      const double flight = pair.gap > 0 && pair.rate < 0 ? std::min(pair.gap / -pair.rate, h) : 0;
+    if (now.touches == 0) {  // where the gap is zero, in this step or after the last theta point; the last acceleration gives the rate
+      double flight = pair.rate < 0 ? pair.gap / -pair.rate : 0;
+      if (std::abs(flight) > h) flight = 0;
       begins = {1, committed.time + flight, pair.rate + flight * contacts.jacobian.row(pair.pair).dot(committed.acceleration), 0};
     }
     pair.approach = -begins.rate_before;
@@ -118,16 +122,16 @@ void PenaltyForces::subtract_impulses(const Contacts& contacts, VectorX& residua
 void PenaltyForces::solve_own(const ContactOptions& options, const Contacts& contacts, VectorX& slope) {
   ForceSolution solution = solve_forces(problem_, options, impulse_);
   if (!solution.converged) {
-    throw ConvergenceError(fmt::format("the contact forces did not converge (error {:.1e} after {} iterations), first pair {}", solution.error,
-                                       solution.iterations, name(contacts, problem_.pairs.front().pair)));
+    throw ConvergenceError(fmt::format("the contact forces did not converge (error {:.1e} after {} iterations), first pair {}",
+                                       solution.error, solution.iterations, name(contacts, problem_.pairs.front().pair)));
   }
   impulse_ = std::move(solution.impulse);
   slope = std::move(solution.slope);
 }
 
-ContactSolution PenaltyForces::solve(const Contacts& contacts, IterationMatrix& matrix, const VectorX& velocity, const std::vector<int>& others,
-                                     const ContactProblem& problem, VectorX guess, const ContactOptions& options,
-                                     const ImpulseSolver& solve_others) {
+ContactSolution PenaltyForces::solve(const Contacts& contacts, IterationMatrix& matrix, const VectorX& velocity,
+                                     const std::vector<int>& others, const ContactProblem& problem, VectorX guess,
+                                     const ContactOptions& options, const ImpulseSolver& solve_others) {
   const auto own = static_cast<Eigen::Index>(problem_.pairs.size()), count = static_cast<Eigen::Index>(others.size());
   MatrixX of_others(own, count), on_others(count, own);  // rates of one kind by impulses of the other
   problem_.delassus.resize(own, own);
@@ -168,18 +172,20 @@ ContactSolution PenaltyForces::solve(const Contacts& contacts, IterationMatrix& 
     const double scale = std::max(problem.rhs.cwiseAbs().maxCoeff(), (problem.delassus.cwiseAbs() * solution.impulse).maxCoeff());
     if (change.cwiseAbs().maxCoeff() <= 1e-12 * scale) return solution;
   }
-  throw ConvergenceError(fmt::format("contact forces and impulses did not come to terms within {} alternations, first pair {}", most_alternations,
-                                     name(contacts, others.front())));
+  throw ConvergenceError(fmt::format("contact forces and impulses did not come to terms within {} alternations, first pair {}",
+                                     most_alternations, name(contacts, others.front())));
 }
 
-void PenaltyForces::report(const Contacts& contacts, const State& committed, const VectorX& rate, State& trial, StepResult& result) const {
+void PenaltyForces::report(const Contacts& contacts, const State& committed, const VectorX& rate, State& trial,
+                           StepResult& result) const {
   trial.contact_episodes = committed.contact_episodes;
   std::vector<bool> touching(laws_.size(), false);
+  std::vector<Impact> ended;
   for (std::size_t a = 0; a < problem_.pairs.size(); ++a) {
     const ForcePair& pair = problem_.pairs[a];
     const auto place = static_cast<std::size_t>(place_of_[static_cast<std::size_t>(pair.pair)]);
     const double p = impulse_[static_cast<Eigen::Index>(a)];
-    const double u = pair.mid_rate(contacts.jacobian.row(pair.pair).dot(trial.velocity)), d = -(pair.gap + pair.theta * pair.h * u);
+    const double w = contacts.jacobian.row(pair.pair).dot(trial.velocity), u = pair.mid_rate(w), d = pair.mid_penetration(w);
     const auto stored = [&](double gap) { return stored_energy(*pair.law, pair.stiffness, std::max(0.0, -gap)); };
     const double elastic = d > 0 ? pair.h * pair.law->force(pair.stiffness, 0, d, -u, pair.approach).value : 0;
     const double gained = stored(pair.gap + pair.h * u) - stored(pair.gap);
@@ -195,9 +201,10 @@ void PenaltyForces::report(const Contacts& contacts, const State& committed, con
   for (std::size_t k = 0; k < laws_.size(); ++k) {
     const ContactEpisode before = episode(committed, k);
     if (touching[k] || before.touches == 0) continue;
-    result.impacts.push_back(ended_contact(before, laws_[k].pair, committed.time, rate[laws_[k].pair]));
+    ended.push_back(ended_contact(before, laws_[k].pair, committed.time, rate[laws_[k].pair]));
     put(trial, k, {});
   }
+  result.impacts.insert(result.impacts.begin(), ended.begin(), ended.end());  // before the step's own impacts
 }
 
 std::vector<Impact> PenaltyForces::open_contacts(const Contacts& contacts, const State& state) const {
@@ -210,14 +217,13 @@ std::vector<Impact> PenaltyForces::open_contacts(const Contacts& contacts, const
   return open;
 }
 
-std::vector<std::string> PenaltyForces::describe(const Contacts& contacts, double dt) const {
+std::vector<std::string> PenaltyForces::describe(const Contacts& contacts) const {
   std::vector<std::string> lines;
   for (const ForcePair& pair : laws_) {
     lines.push_back(fmt::format("contact '{}': {}, k = {:.4g} {}, {} {:.4g}", name(contacts, pair.pair), pair.law->name, pair.stiffness,
                                 pair.law->stiffness == ContactStiffness::hertz ? "N/m^1.5" : "N/m",
                                 pair.law->has_damping_ratio ? "c =" : "damping", pair.damping));
   }
-  (void)dt;
   return lines;
 }
 

@@ -53,7 +53,7 @@ class PenaltyForces {
   std::vector<Impact> open_contacts(const Contacts& contacts, const State& state) const;
 
   // What `nsframe check` says, a line a pair.
-  std::vector<std::string> describe(const Contacts& contacts, double dt) const;
+  std::vector<std::string> describe(const Contacts& contacts) const;
 
  private:
   void solve_own(const ContactOptions& options, const Contacts& contacts, VectorX& slope);

@@ -8,27 +8,29 @@
 
 namespace nsframe {
 
-VectorX shift_to_closed(const Contacts& contacts, IterationMatrix& matrix, const std::vector<int>& pairs, const VectorX& impulse,
-                        const VectorX& displacement) {
+VectorX shift_to_closed(const Contacts& contacts, IterationMatrix& matrix, const std::vector<ProjectedPair>& pairs) {
   const auto count = static_cast<Eigen::Index>(pairs.size());
   ContactProblem problem{MatrixX(count, count), VectorX(count)};
   for (Eigen::Index a = 0; a < count; ++a) {
-    const int pair = pairs[static_cast<std::size_t>(a)];
-    const double gap = contacts.jacobian.row(pair).dot(displacement) + contacts.initial_gap[pair];
-    problem.rhs[a] = impulse[a] > 0 ? gap : std::max(gap, 0.0);
+    const ProjectedPair& pair = pairs[static_cast<std::size_t>(a)];
+    problem.rhs[a] = pair.opens ? pair.gap : std::max(pair.gap, 0.0);
   }
-  if (problem.rhs.minCoeff() >= 0) return {};
+  if (count == 0 || problem.rhs.minCoeff() >= 0) return {};
   for (Eigen::Index a = 0; a < count; ++a) {
-    const auto row = contacts.jacobian.row(pairs[static_cast<std::size_t>(a)]);
-    for (Eigen::Index b = 0; b < count; ++b) problem.delassus(a, b) = row.dot(matrix.response(contacts, pairs[static_cast<std::size_t>(b)]));
+    const auto row = contacts.jacobian.row(pairs[static_cast<std::size_t>(a)].pair);
+    for (Eigen::Index b = 0; b < count; ++b) {
+      problem.delassus(a, b) = row.dot(matrix.response(contacts, pairs[static_cast<std::size_t>(b)].pair));
+    }
   }
   const ContactSolution solution = solve_active_set(problem, {});
   if (!solution.converged) {
     throw ConvergenceError(fmt::format("the projection of penetrations did not converge (error {:.1e}), first pair {}", solution.error,
-                                       contacts.pairs[static_cast<std::size_t>(pairs.front())].name));
+                                       contacts.pairs[static_cast<std::size_t>(pairs.front().pair)].name));
   }
-  VectorX shift = VectorX::Zero(displacement.size());
-  for (Eigen::Index a = 0; a < count; ++a) shift += solution.impulse[a] * matrix.response(contacts, pairs[static_cast<std::size_t>(a)]);
+  VectorX shift = VectorX::Zero(contacts.jacobian.cols());
+  for (Eigen::Index a = 0; a < count; ++a) {
+    shift += solution.impulse[a] * matrix.response(contacts, pairs[static_cast<std::size_t>(a)].pair);
+  }
   return shift;
 }
 

@@ -10,9 +10,14 @@ namespace nsframe {
 
 inline constexpr double closed_gap = 1e-12;  // [m] up to which a projected pair counts as closed
 
-// The least shift of `displacement`, in the norm of the iteration matrix J, that opens those `pairs` that carry an impulse to gap
-// 0 and presses no other one further in: J^-1 H' lambda. Empty where none is penetrated. Throws ConvergenceError.
-VectorX shift_to_closed(const Contacts& contacts, IterationMatrix& matrix, const std::vector<int>& pairs, const VectorX& impulse,
-                        const VectorX& displacement);
+struct ProjectedPair {
+  int pair = 0;
+  double gap = 0;     // [m]
+  bool opens = true;  // to gap 0; else it is only not pressed further in
+};
+
+// The least shift of displacements, in the norm of the iteration matrix J, that opens penetrated pairs to gap 0 and presses none
+// further in: J^-1 H' lambda. Empty where none is penetrated. Throws ConvergenceError.
+VectorX shift_to_closed(const Contacts& contacts, IterationMatrix& matrix, const std::vector<ProjectedPair>& pairs);
 
 }  // namespace nsframe

@@ -165,7 +165,7 @@ void visit(Archive& ar, AnalysisOptions& a) {
      a.algorithm);
   ar(Field{"max_halvings", "of a step whose iterations fail", {}, {0, 60}}, a.max_halvings);
   ar(Field{"contact_solver", "of the contact problem"}, a.contact_solver);
-  ar(Field{"projection", "moreau-jean: move penetrations of pairs with impulses back to gap 0 after each step, velocities as they are"},
+  ar(Field{"projection", "moreau-jean: move penetrations back to gap 0 after each step, velocities as they are; not of penalty laws"},
      a.projection);
   ar(Field{"contact_tolerance", "complementarity error relative to the approach velocity", {}, range::positive},
      a.contact_tolerance);
