@@ -29,6 +29,7 @@ struct AnalysisOptions {
   int max_halvings = 10;               // of a step whose Newton iterations fail
   ImpactLaw impact_law = ImpactLaw::newton;  // how e acts where several pairs collide at once (contact/impact_law.hpp)
   ContactSolverKind contact_solver = ContactSolverKind::active_set;
+  bool projection = false;             // of penetrations to gap 0 after each step (moreau-jean)
   double contact_tolerance = 1e-12;    // complementarity error relative to the approach velocity
   int max_contact_sweeps = 100000;     // Gauss-Seidel only
   int threads = 1;

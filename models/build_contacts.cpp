@@ -90,7 +90,30 @@ void check_numbers(const ContactDescription& contact, Diagnostics& diagnostics) 
   if (!(contact.friction >= 0 && std::isfinite(contact.friction))) {
     diagnostics.error(contact.at, fmt::format("friction = {}, must not be negative", contact.friction));
   }
+  for (const ContactLawFault& fault : faults(contact.law, {})) diagnostics.error(contact.at, fault.message);
+  const ContactLawChoice& law = contact.law;
+  for (const auto& number : {law.stiffness, law.stiffness_ratio, law.hertz_stiffness, law.effective_mass}) {
+    if (number && !(*number > 0 && std::isfinite(*number))) {
+      diagnostics.error(contact.at, fmt::format("contact law '{}': stiffness and mass must be positive, not {:g}", law.name, *number));
+    }
+  }
+  if (law.damping_ratio && !(*law.damping_ratio >= 0 && std::isfinite(*law.damping_ratio))) {
+    diagnostics.error(contact.at, fmt::format("damping_ratio = {:g}, must not be negative", *law.damping_ratio));
+  }
   if (!(std::abs(contact.direction.norm() - 1) < 1e-9)) diagnostics.error(contact.at, "the direction of a contact must be a unit vector");
+}
+
+// What the law makes of the restitutions: those of its damping ratio, 1 of an elastic one.
+void apply_law(const ContactDescription& contact, std::vector<double>& restitution, Diagnostics& diagnostics) {
+  const ContactForceLaw* law = contact_force_law(contact.law.name);
+  if (law == nullptr) return;
+  const bool elastic = law->coefficient == nullptr;
+  for (double& e : restitution) {
+    if (elastic) e = 1;
+    if (contact.law.damping_ratio) e = restitution_of(*law, *contact.law.damping_ratio);
+    if (elastic || e >= law->least_restitution) continue;
+    diagnostics.error(contact.at, fmt::format("contact law '{}' needs a restitution of at least {:g}", law->name, law->least_restitution));
+  }
 }
 
 void add(const ContactDescription& contact, const ContactScene& scene, std::vector<FinishedPair>& pairs, Diagnostics& diagnostics) {
@@ -108,11 +131,13 @@ void add(const ContactDescription& contact, const ContactScene& scene, std::vect
     restitution = spread(contact.restitutions, floor, "restitutions", contact.at, diagnostics);
     if (restitution.empty()) return;
   }
+  apply_law(contact, restitution, diagnostics);
   for (std::size_t i = 0; i < drafts.size(); ++i) {
     PairDraft& draft = drafts[i];
     ContactPair& pair = draft.pair;
     const double open = gap_of(draft, contact, gap, i, diagnostics);
     pair.sliding_error = contact.sliding_error;
+    pair.law = contact.law;
     if (pair.b.fixed()) pair.b.position = pair.a.position + open * pair.normal;
     if (!contact.name.empty()) pair.name = contact.name + ":" + pair.name;
     pairs.push_back({std::move(draft), open, restitution[i], contact.friction});

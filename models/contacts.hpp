@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/types.hpp"
+#include "models/contact_law.hpp"
 #include "models/contact_point.hpp"
 
 namespace nsframe {
@@ -23,13 +24,14 @@ struct ContactPair {
   bool rigid_bodies = false;             // both sides belong to rigid bodies, so restitution acts on whole slabs
   std::array<SlidingRoom, 2> room;       // along tangents(normal)
   double sliding_error = 1e-3;           // of the gap, beyond which a run warns [m]
+  ContactLawChoice law;
 };
 
 struct Contacts {
   std::vector<ContactPair> pairs;
   SparseRows jacobian;                   // H (pairs x free DOFs): gap rate = H velocity
   VectorX initial_gap;                   // g0 [m], positive open
-  VectorX restitution;                   // e of Newton's or Poisson's law [-]
+  VectorX restitution;                   // e of Newton's or Poisson's law, or what the damping of a law of force is meant to give [-]
   VectorX friction;                      // Coulomb's mu [-]; empty when no pair has any
   SparseRows tangents;                   // (2 pairs x free DOFs): rows 2i, 2i + 1 give the slip rate of b on a along tangents(normal);
                                          // without rows when no pair has friction, rows of zeros where a pair has none

@@ -16,6 +16,7 @@
 #include "elements/releases.hpp"
 #include "elements/sections.hpp"
 #include "materials/uniaxial.hpp"
+#include "models/contact_law.hpp"
 #include "models/static_stage.hpp"
 
 namespace nsframe {
@@ -200,6 +201,7 @@ struct ContactDescription {
   double restitution = 0.6;
   std::vector<double> restitutions;     // where pairs differ, in place of `restitution`: as `gap`
   double friction = 0;                  // Coulomb's mu, static and sliding alike; 0: none
+  ContactLawChoice law;
   std::optional<Vector3> wall;          // a point of the fixed plane across `direction` [m]
   double reach = 1;                     // pairs farther apart by their coordinates are not made [m]; not nodes, slab_corners
   double gap_tolerance = 0.5;           // largest difference of a given gap from the coordinates [m]

@@ -24,11 +24,12 @@ struct Energy {
 };
 
 struct Impact {
-  double time = 0;             // end of the step [s]
+  double time = 0;             // end of the step, or of the contact with a law of force [s]
   int pair = 0;
   double approach_velocity = 0;  // -(gap rate before), positive when closing [m/s]
   double impulse = 0;          // [N s]
   double rate_before = 0, rate_after = 0;  // gap rates [m/s]
+  double duration = 0;         // before `time`, of a contact with a law of force; 0: an impulse [s]
 };
 
 // Slip of a pair with friction while it was in contact.

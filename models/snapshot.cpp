@@ -10,7 +10,7 @@ namespace nsframe {
 
 namespace {
 
-constexpr std::size_t impact_size = 6;  // doubles
+constexpr std::size_t impact_size = 7;  // doubles
 
 }  // namespace
 
@@ -43,6 +43,7 @@ void save(const State& state, Snapshot& snapshot) {
   snapshot.put("state.history", state.history);
   snapshot.put("state.damping_stiffness", state.damping_stiffness);
   snapshot.put("state.impulse", state.impulse);
+  snapshot.put("state.contact_episodes", state.contact_episodes);
 }
 
 void restore(State& state, const Snapshot& snapshot) {
@@ -54,6 +55,7 @@ void restore(State& state, const Snapshot& snapshot) {
   snapshot.read("state.history", state.history);
   snapshot.read("state.damping_stiffness", state.damping_stiffness);
   snapshot.read("state.impulse", state.impulse);
+  snapshot.read("state.contact_episodes", state.contact_episodes);
 }
 
 void save(const std::string& name, const std::vector<Impact>& impacts, Snapshot& snapshot) {
@@ -62,7 +64,7 @@ void save(const std::string& name, const std::vector<Impact>& impacts, Snapshot&
   values.reserve(impact_size * impacts.size());
   for (const Impact& impact : impacts) {
     values.insert(values.end(), {impact.time, double(impact.pair), impact.approach_velocity, impact.impulse,
-                                 impact.rate_before, impact.rate_after});
+                                 impact.rate_before, impact.rate_after, impact.duration});
   }
 }
 
@@ -71,7 +73,7 @@ std::vector<Impact> restore_impacts(const std::string& name, const Snapshot& sna
   std::vector<Impact> impacts;
   for (std::size_t i = 0; i + impact_size <= values.size(); i += impact_size) {
     const double* const v = values.data() + i;
-    impacts.push_back({v[0], static_cast<int>(v[1]), v[2], v[3], v[4], v[5]});
+    impacts.push_back({v[0], static_cast<int>(v[1]), v[2], v[3], v[4], v[5], v[6]});
   }
   return impacts;
 }

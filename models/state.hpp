@@ -14,6 +14,7 @@ struct State {
   VectorX history;            // of all nonlinear elements; layout: Model::history_begin, one block a group
   VectorX damping_stiffness;  // entries of the tangent at the end of the last step; empty unless damping needs it [N/m]
   VectorX impulse;            // of the contact pairs over the last step [N s]
+  VectorX contact_episodes;   // of the pairs with a law of force, in their order: a ContactEpisode each (penalty_forces.hpp)
 };
 
 }  // namespace nsframe

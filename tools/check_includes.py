@@ -2,7 +2,8 @@
 """Checks that includes are written from the root and point one way only:
 
     base <- materials <- elements <- models <- assembly <- integrators <- app
-    contact: base, models/contacts.hpp     modal: base     spectra: base     motion: base, spectra     integrators: also contact
+    contact: base, models/contacts.hpp, models/contact_law.hpp     modal: base     spectra: base     motion: base, spectra
+    integrators: also contact
     scene: base .. models, motion     output: base .. models, spectra     study: base .. models     app, tests, bench: anything
 
 A test or a bench may also name a helper in its own folder without a path.
@@ -19,7 +20,7 @@ CHAIN = ["base", "materials", "elements", "models", "assembly", "integrators"]
 ALLOWED = {folder: set(CHAIN[: i + 1]) for i, folder in enumerate(CHAIN)}
 ALLOWED["assembly"] |= {"modal"}
 ALLOWED["integrators"] |= {"contact", "modal"}
-ALLOWED["contact"] = {"base", "contact", "models/contacts.hpp"}
+ALLOWED["contact"] = {"base", "contact", "models/contacts.hpp", "models/contact_law.hpp"}
 ALLOWED["modal"] = {"base", "modal"}
 ALLOWED["motion"] = {"base", "motion", "spectra"}
 ALLOWED["scene"] = set(CHAIN[:4]) | {"motion", "scene"}

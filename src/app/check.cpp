@@ -64,7 +64,7 @@ void print_solution(const LoadedScene& loaded, Simulation& simulation) {
   if (!simulation.stages().empty() && !(simulation.duration() > 0)) return;
   const std::vector<std::string> own = simulation.scheme().describe();
   const std::string name = simulation.scheme().name();
-  if (!own.empty()) {
+  if (!own.empty() && name != "moreau-jean") {
     fmt::print("scheme {}: {} {:g} ms, {} steps to {:g} s\n", name, name == "exact" ? "results every" : "dt =", 1e3 * analysis.dt,
                std::lround(simulation.duration() / analysis.dt), simulation.duration());
     fmt::print("  chosen because: {}\n", simulation.scheme_reason());
@@ -74,6 +74,7 @@ void print_solution(const LoadedScene& loaded, Simulation& simulation) {
   fmt::print("scheme {}: theta = {:g}, gamma = {:g}, dt = {:g} ms, {} steps to {:g} s\n", name, analysis.theta,
              analysis.gamma, 1e3 * analysis.dt, std::lround(simulation.duration() / analysis.dt), simulation.duration());
   fmt::print("  chosen because: {}\n", simulation.scheme_reason());
+  for (const std::string& line : own) fmt::print("  {}\n", line);
   const std::string algorithms = fmt::format("{}", fmt::join(analysis.algorithm, ", "));
   fmt::print("solution: {}; contact by {}\n",
              simulation.system().linear() ? std::string("linear, the iteration matrix is factored once")

@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "integrators/mode_response.hpp"
+#include "integrators/position_projection.hpp"
 
 namespace nsframe {
 
@@ -26,7 +27,14 @@ std::string hint_of_restitution(const Contacts& contacts) {
 }  // namespace
 
 MoreauJean::MoreauJean(const AnalysisOptions& options, const System& system)
-    : options_(options), matrix_(system), ladder_(options.algorithm), least_scale_(least_acceleration * system.mass().diagonal().norm()) {}
+    : options_(options), matrix_(system), ladder_(options.algorithm), forces_(system), least_scale_(least_acceleration * system.mass().diagonal().norm()),
+      description_(forces_.describe(system.contacts())) {
+  if (!options.projection) return;
+  description_.emplace_back("penetrations are moved back to gap 0 after each step");
+  if (!system.assembler.rate_dependent()) return;
+  throw InputError("error: analysis.projection moves displacements without a rate, and this scene has elements whose force depends on "
+                   "the rate of deformation; set projection = false");
+}
 
 void MoreauJean::find_active_pairs(const System& system, const State& committed, double h, StepResult& result) {
   const Contacts& contacts = system.contacts();
@@ -37,9 +45,11 @@ void MoreauJean::find_active_pairs(const System& system, const State& committed,
   gap_ += contacts.initial_gap;
   rate_.noalias() = contacts.jacobian * committed.velocity;
   result.least_gap = gap_.minCoeff();
+  const double closed = options_.projection ? closed_gap : 0;  // a projected gap is 0 but for rounding
   for (int i = 0; i < contacts.size(); ++i) {
-    if (gap_[i] + options_.gamma * h * rate_[i] < 0) active_.push_back(i);
+    if (!forces_.is_force(i) && gap_[i] + options_.gamma * h * rate_[i] < closed) active_.push_back(i);
   }
+  forces_.start_step(contacts, committed, gap_, rate_, h, options_.theta);
 }
 
 void MoreauJean::predict(const System& system, const State& committed, double h, State& trial, StepResult& result) {
@@ -69,8 +79,12 @@ void MoreauJean::evaluate(System& system, const State& committed, State& trial, 
 
 void MoreauJean::update_velocity(const System& system, const VectorX& change, State& trial, StepResult& result) {
   trial.velocity += change;
-  if (active_.empty()) return;
+  if (in_contact()) solve_contact(system, trial, result);
+}
+
+void MoreauJean::solve_contact(const System& system, State& trial, StepResult& result) {
   const Contacts& contacts = system.contacts();
+  forces_.add_velocity(contacts, matrix_, -1, trial.velocity);
   if (!impulse_.isZero(0)) {  // R knows of the impulses so far: they are found anew
     matrix_.respond(contacts, active_, impulse_, contact_change_);
     trial.velocity -= contact_change_;
@@ -88,10 +102,14 @@ void MoreauJean::update_velocity(const System& system, const VectorX& change, St
   }
   problem.rhs -= target_rates(system, problem.delassus);
   const ContactOptions contact_options{options_.contact_tolerance, options_.max_contact_sweeps};
-  ContactSolution solution = contacts.frictional() ? solve_with_friction(system, problem, trial)
-                             : options_.contact_solver == ContactSolverKind::active_set
-                                 ? solve_active_set(problem, contact_options, impulse_)
-                                 : solve_gauss_seidel(problem, contact_options, impulse_);
+  const auto solve = [&](const ContactProblem& impulses, const VectorX& guess) {
+    return options_.contact_solver == ContactSolverKind::active_set ? solve_active_set(impulses, contact_options, guess)
+                                                                    : solve_gauss_seidel(impulses, contact_options, guess);
+  };
+  ContactSolution solution =
+      contacts.frictional() ? solve_with_friction(system, problem, trial)
+      : forces_.active()    ? forces_.solve(contacts, matrix_, trial.velocity, active_, problem, impulse_, contact_options, solve)
+                            : solve(problem, impulse_);
   result.complementarity_error = solution.error;
   if (!solution.converged) {
     Eigen::Index worst = 0;
@@ -105,10 +123,12 @@ void MoreauJean::update_velocity(const System& system, const VectorX& change, St
   impulse_ = std::move(solution.impulse);
   delassus_ = std::move(problem.delassus);
   contact_change_.resize(0);
-  if (impulse_.isZero(0)) return;
-  matrix_.respond(contacts, active_, impulse_, contact_change_);
-  if (contacts.frictional()) add_friction_response(contacts, 1, contact_change_);
-  trial.velocity += contact_change_;
+  if (!impulse_.isZero(0)) {
+    matrix_.respond(contacts, active_, impulse_, contact_change_);
+    if (contacts.frictional()) add_friction_response(contacts, 1, contact_change_);
+    trial.velocity += contact_change_;
+  }
+  forces_.add_velocity(contacts, matrix_, 1, trial.velocity);
 }
 
 void MoreauJean::add_impulses(const System& system) {
@@ -117,6 +137,7 @@ void MoreauJean::add_impulses(const System& system) {
     residual_ -= impulse_[static_cast<Eigen::Index>(a)] * system.contacts().jacobian.row(active_[a]).transpose();
   }
   if (system.contacts().frictional()) add_friction(system.contacts(), -1, residual_);
+  forces_.subtract_impulses(system.contacts(), residual_);
 }
 
 double MoreauJean::force_scale(const State& trial, double h) const {
@@ -139,8 +160,9 @@ class MoreauJean::Step : public NonlinearStep {
       : scheme_(scheme), system_(system), committed_(committed), trial_(trial), h_(h), result_(result) {}
 
   void restart() override {
-    scheme_.impulse_ = VectorX::Zero(result_.active_pairs);
-    scheme_.friction_impulse_ = VectorX::Zero(system_.contacts().frictional() ? 2 * result_.active_pairs : 0);
+    scheme_.impulse_ = VectorX::Zero(static_cast<Eigen::Index>(scheme_.active_.size()));
+    scheme_.friction_impulse_ = VectorX::Zero(system_.contacts().frictional() ? 2 * scheme_.impulse_.size() : 0);
+    scheme_.forces_.restart();
     system_.assembler.start_step(committed_.history, trial_.history);
     trial_.velocity = committed_.velocity;
     predicted_ = !system_.linear() && has_factors();
@@ -152,7 +174,7 @@ class MoreauJean::Step : public NonlinearStep {
     evaluate(system_.damping.follows_tangent());
     if (predicted_) error_of_guess_ = residual() / (scheme_.options_.theta * h_);
   }
-  const VectorX& residual() const override { return scheme_.active_.empty() ? scheme_.free_residual_ : scheme_.residual_; }
+  const VectorX& residual() const override { return scheme_.in_contact() ? scheme_.residual_ : scheme_.free_residual_; }
   bool guess_may_stand() const override { return predicted_; }
   double error() const override { return result_.residual / scheme_.options_.newton_tolerance; }
   void factor(Tangent which) override {
@@ -190,7 +212,7 @@ class MoreauJean::Step : public NonlinearStep {
  private:
   void evaluate(bool with_tangent) {
     scheme_.evaluate(system_, committed_, trial_, h_, with_tangent);
-    if (!scheme_.active_.empty()) scheme_.add_impulses(system_);
+    if (scheme_.in_contact()) scheme_.add_impulses(system_);
     result_.residual = residual().norm() / std::max(scheme_.force_scale(trial_, h_), 1e-300);
   }
 
@@ -211,7 +233,7 @@ void MoreauJean::step(System& system, const State& committed, State& trial, doub
   result.slips.clear();
   contact_change_.resize(0);
   find_active_pairs(system, committed, h, result);
-  result.active_pairs = static_cast<int>(active_.size());
+  result.active_pairs = static_cast<int>(active_.size()) + forces_.count();
   system.load_impulse(committed.time, committed.time + h, load_);
   Step problem(*this, system, committed, trial, h, result);
   if (!ladder_.climb(problem, options_.max_newton, result.attempts)) fail(system, committed, result);
@@ -224,11 +246,37 @@ void MoreauJean::step(System& system, const State& committed, State& trial, doub
   } else {
     trial.acceleration.setZero(trial.velocity.size());
   }
+  report(system, committed, trial, h, result);
+  if (options_.projection) project(system, committed, trial, h, result);
   if (system.damping.follows_tangent()) {
     const SparseMatrix& K = system.assembler.tangent();
     trial.damping_stiffness = Eigen::Map<const VectorX>(K.valuePtr(), K.nonZeros());
   }
-  report(system, committed, trial, h, result);
+}
+
+// Pairs that carry an impulse, and those that closed in this step unforeseen. What the shift does to internal forces and loads is
+// work of the scheme, not of the contact.
+void MoreauJean::project(System& system, const State& committed, State& trial, double h, StepResult& result) {
+  const Contacts& contacts = system.contacts();
+  if (contacts.size() == 0) return;
+  const VectorX gap = contacts.jacobian * trial.displacement + contacts.initial_gap;
+  std::vector<ProjectedPair> pairs;
+  std::size_t next = 0;  // of active_, which rises
+  for (int i = 0; i < contacts.size(); ++i) {
+    const bool active = next < active_.size() && active_[next] == i;
+    if (active) ++next;
+    if (!active && (gap[i] >= 0 || forces_.is_force(i))) continue;
+    pairs.push_back({i, gap[i], trial.impulse[i] > 0 || gap_[i] >= -closed_gap});
+  }
+  const VectorX shift = shift_to_closed(contacts, matrix_, pairs);
+  if (shift.size() == 0) return;
+  const VectorX force = trial.internal_force;
+  trial.displacement += shift;
+  system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force, system.damping.follows_tangent());
+  const double strain = 0.5 * shift.dot(force + trial.internal_force), input = shift.dot(load_) / h;
+  result.strain += strain;
+  result.input += input;
+  result.numerical -= strain - input;
 }
 
 // Impacts and the energy of the step (theory.md, "Energy balance"): v_theta' R = 0 split into its terms, the part of the
@@ -258,6 +306,7 @@ void MoreauJean::report(const System& system, const State& committed, State& tri
   }
   report_simultaneous(system, committed, trial, h, result);
   result.numerical *= options_.theta - 0.5;
+  forces_.report(contacts, committed, rate_, trial, result);
   if (system.assembler.rate_dependent()) {
     result.damping += rate_energy_.dissipated;
     result.strain += rate_energy_.stored;
@@ -265,6 +314,10 @@ void MoreauJean::report(const System& system, const State& committed, State& tri
   }
   // q+ = q + h v + theta h (v+ - v): as if the velocity jumped here
   if (contact_change_.size() > 0) result.jumps.push_back({committed.time + (1 - options_.theta) * h, contact_change_});
+}
+
+std::vector<Impact> MoreauJean::open_contacts(const System& system, const State& state) const {
+  return forces_.open_contacts(system.contacts(), state);
 }
 
 void MoreauJean::save(Snapshot& snapshot) const {

@@ -7,6 +7,7 @@
 
 #include "contact/contact_problem.hpp"
 #include "integrators/algorithms.hpp"
+#include "integrators/penalty_forces.hpp"
 #include "integrators/extrapolation.hpp"
 #include "integrators/iteration_matrix.hpp"
 #include "integrators/scheme.hpp"
@@ -20,6 +21,8 @@ class MoreauJean : public Scheme {
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double h) const override;
   long factorizations() const override { return matrix_.factorizations(); }
+  std::vector<Impact> open_contacts(const System& system, const State& state) const override;
+  std::vector<std::string> describe() const override { return description_; }
   void save(Snapshot& snapshot) const override;
   void restore(System& system, const Snapshot& snapshot) override;
 
@@ -30,6 +33,7 @@ class MoreauJean : public Scheme {
   void predict(const System& system, const State& committed, double h, State& trial, StepResult& result);
   // Internal force at the trial velocity; fills free_residual_ = R without the contact impulses.
   void evaluate(System& system, const State& committed, State& trial, double h, bool with_tangent);
+  bool in_contact() const { return !active_.empty() || forces_.active(); }
   // Changes the velocity as an algorithm commands, then solves the contact problem on the active pairs.
   void update_velocity(const System& system, const VectorX& change, State& trial, StepResult& result);
   // moreau_jean_contact.cpp: what restitution asks of the gap rates of the active pairs at the end of the step (274); the contact
@@ -39,8 +43,11 @@ class MoreauJean : public Scheme {
   void add_friction(const Contacts& contacts, double factor, VectorX& momentum) const;
   void add_friction_response(const Contacts& contacts, double factor, VectorX& velocity);
   void report_simultaneous(const System& system, const State& committed, const State& trial, double h, StepResult& result) const;
+  void solve_contact(const System& system, State& trial, StepResult& result);
   // Fills residual_ = R with the contact impulses.
   void add_impulses(const System& system);
+  // Moves penetrations back to gap 0.
+  void project(System& system, const State& committed, State& trial, double h, StepResult& result);
   double force_scale(const State& trial, double h) const;
   void report(const System& system, const State& committed, State& trial, double h, StepResult& result) const;
   [[noreturn]] void fail(const System& system, const State& committed, const StepResult& result) const;
@@ -48,6 +55,7 @@ class MoreauJean : public Scheme {
   AnalysisOptions options_;
   IterationMatrix matrix_;
   Ladder ladder_;
+  PenaltyForces forces_;              // of the pairs with laws of force; active_ has the others
   double least_scale_;                // force that counts as zero [N]
   std::vector<int> active_;
   VectorX gap_, rate_;                // at the start of the step
@@ -58,6 +66,7 @@ class MoreauJean : public Scheme {
   Extrapolation departure_;           // of P(q+) - P(q) - K (q+ - q) with the factored K, step by step [N]
   VectorX rate_force_;                // of rate-dependent elements, at the theta point
   RateEnergy rate_energy_;            // of the step
+  std::vector<std::string> description_;
   VectorX contact_change_;            // of the velocity, by the impulses; empty without
 };
 

@@ -55,6 +55,12 @@ class Scheme {
   // Whether a step that threw ConvergenceError is worth trying in halves.
   virtual bool shorter_steps_help() const { return true; }
 
+  // Contacts with laws of force that are under way, as if they ended now.
+  virtual std::vector<Impact> open_contacts(const System& system, const State& state) const {
+    (void)system, (void)state;
+    return {};
+  }
+
   // What `nsframe check` says of it, a line each.
   virtual std::vector<std::string> describe() const { return {}; }
 

@@ -4,6 +4,7 @@
 
 #include "base/errors.hpp"
 #include "integrators/exact_modes.hpp"
+#include "integrators/penalty_forces.hpp"
 
 namespace nsframe {
 
@@ -22,6 +23,7 @@ std::string reason_against_modes(const System& system, const State& start) {
   const Contacts& contacts = system.contacts();
   if (contacts.size() == 0) return {};
   if (contacts.frictional()) return "contact has friction, which acts in moreau-jean alone";
+  if (const std::string force = force_law_of(contacts); !force.empty()) return force + ", which moreau-jean alone can take";
   if (!system.model.stages.empty()) return "contact pairs may overlap after static stages, in which they do not act";
   const VectorX gap = contacts.jacobian * start.displacement + contacts.initial_gap;
   Eigen::Index least = 0;

@@ -8,6 +8,7 @@
 #include "integrators/exact.hpp"
 #include "integrators/exponential.hpp"
 #include "integrators/moreau_jean.hpp"
+#include "integrators/penalty_forces.hpp"
 #include "integrators/scheme.hpp"
 
 namespace nsframe {
@@ -26,10 +27,19 @@ const std::map<std::string, Factory>& factories() {
   return schemes;
 }
 
-// Friction, and Poisson's law beside it, where they are not available.
+// Friction, laws of force, and what does not go beside them, where they are not available.
 void check_contact_laws(const AnalysisOptions& options, const Contacts& contacts) {
-  if (!contacts.frictional()) return;
   Diagnostics diagnostics;
+  const std::string force = force_law_of(contacts);
+  if (!force.empty() && options.scheme != "moreau-jean") {
+    diagnostics.error(options.scheme_at, fmt::format("scheme '{}' locates impacts and takes no penalty laws: {}; use scheme = \"moreau-jean\"",
+                                                     options.scheme, force));
+  }
+  if (!force.empty() && contacts.frictional()) {
+    diagnostics.error(options.scheme_at, fmt::format("friction acts beside Newton's law of impact alone, and {}", force));
+  }
+  diagnostics.throw_if_any();
+  if (!contacts.frictional()) return;
   if (options.scheme != "moreau-jean") {
     diagnostics.error(options.scheme_at, fmt::format("scheme {} has no friction, which contact asks for: scheme = \"moreau-jean\" has it", options.scheme));
   }

@@ -6,6 +6,7 @@
 
 #include "base/errors.hpp"
 #include "integrators/algorithms.hpp"
+#include "integrators/penalty_forces.hpp"
 #include "integrators/static_step.hpp"
 
 namespace nsframe {
@@ -16,6 +17,7 @@ State virgin_state(System& system) {
   state.displacement = state.velocity = state.acceleration = state.internal_force = VectorX::Zero(size);
   state.history = system.assembler.virgin_history();
   state.impulse = VectorX::Zero(system.contacts().size());
+  state.contact_episodes = no_contact_episodes(system.contacts());
   State trial = state;
   system.assembler.start_step(state.history, trial.history);
   system.assembler.internal_force(state.displacement, state.history, trial.history, state.internal_force);

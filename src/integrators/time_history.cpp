@@ -280,6 +280,10 @@ TimeHistoryResult TimeHistory::run(double duration, State& committed) {
   }
   result_.completed = result_.steps == steps;
   save(committed);
+  for (const Impact& impact : scheme_.open_contacts(system_, committed)) {
+    result_.impacts.push_back(impact);
+    observe([&](Observer& observer) { observer.impact(impact); });
+  }
   if (system_.contacts().size() > 0) {
     const VectorX gap = system_.contacts().jacobian * committed.displacement + system_.contacts().initial_gap;
     result_.max_penetration = std::max(result_.max_penetration, -gap.minCoeff());

@@ -144,7 +144,7 @@ std::unique_ptr<HistoryPart> ground_history(const Model&) { return std::make_uni
 
 ImpactRows::ImpactRows(Hdf5File& file, const Contacts& contacts) : pair_(file, "/impacts/pair", {}, 256) {
   const std::pair<const char*, const char*> columns[] = {
-      {"time", "s"}, {"approach_velocity", "m/s"}, {"impulse", "N s"}, {"rate_before", "m/s"}, {"rate_after", "m/s"}};
+      {"time", "s"}, {"approach_velocity", "m/s"}, {"impulse", "N s"}, {"rate_before", "m/s"}, {"rate_after", "m/s"}, {"duration", "s"}};
   for (const auto& [name, units] : columns) {
     const std::string path = std::string("/impacts/") + name;
     columns_.emplace_back(file, path, std::vector<hsize_t>{}, 256);
@@ -158,7 +158,7 @@ ImpactRows::ImpactRows(Hdf5File& file, const Contacts& contacts) : pair_(file, "
 void ImpactRows::add(const Impact& impact) {
   *pair_.add_row() = impact.pair;
   const double values[] = {impact.time, impact.approach_velocity, impact.impulse, impact.rate_before,
-                           impact.rate_after};
+                           impact.rate_after, impact.duration};
   for (std::size_t i = 0; i < columns_.size(); ++i) *columns_[i].add_row() = values[i];
 }
 

@@ -1,5 +1,6 @@
 #include "output/poundings.hpp"
 
+#include <algorithm>
 #include <unordered_map>
 
 namespace nsframe {
@@ -10,11 +11,11 @@ std::vector<Pounding> merge_impacts(const std::vector<Impact>& impacts, double w
   for (const auto& impact : impacts) {
     const auto found = latest.find(impact.pair);
     const bool continues = found != latest.end() &&
-                           impact.time - (poundings[found->second].time + poundings[found->second].duration) < window;
+                           impact.time - impact.duration - (poundings[found->second].time + poundings[found->second].duration) < window;
     if (!continues) {
       latest[impact.pair] = poundings.size();
       Pounding first;
-      first.time = impact.time;
+      first.time = impact.time - impact.duration;
       first.pair = impact.pair;
       first.approach_velocity = impact.approach_velocity;
       poundings.push_back(first);
@@ -27,6 +28,8 @@ std::vector<Pounding> merge_impacts(const std::vector<Impact>& impacts, double w
     pounding.effective_restitution =
         pounding.approach_velocity > 0 ? impact.rate_after / pounding.approach_velocity : 0;
   }
+  // a contact with a law of force is told when it ends
+  std::stable_sort(poundings.begin(), poundings.end(), [](const Pounding& p, const Pounding& q) { return p.time < q.time; });
   return poundings;
 }
 

@@ -30,7 +30,8 @@ Json impacts_json(const Summary& summary) {
                     {"approach_velocity", impact.approach_velocity},
                     {"impulse", impact.impulse},
                     {"rate_before", impact.rate_before},
-                    {"rate_after", impact.rate_after}});
+                    {"rate_after", impact.rate_after},
+                    {"duration", impact.duration}});
   }
   return list;
 }

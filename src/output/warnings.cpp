@@ -80,8 +80,31 @@ void of_penetration(const Model& model, const Summary& summary, Sentences& out) 
   double gap = 1e300;
   for (const double open : model.contacts.initial_gap) gap = open > 0 ? std::min(gap, open) : gap;
   if (!(summary.max_penetration > deep * gap)) return;
-  out.push_back(fmt::format("the largest penetration, {:.3g} mm, is {:.0f} % of the smallest gap, {:.3g} mm: a smaller dt lessens it",
-                            1e3 * summary.max_penetration, 100 * summary.max_penetration / gap, 1e3 * gap));
+  const auto& pairs = model.contacts.pairs;
+  const bool any_force = std::any_of(pairs.begin(), pairs.end(), [](const ContactPair& pair) { return pair.law.is_force(); });
+  out.push_back(fmt::format("the largest penetration, {:.3g} mm, is {:.0f} % of the smallest gap, {:.3g} mm: a {} lessens it",
+                            1e3 * summary.max_penetration, 100 * summary.max_penetration / gap, 1e3 * gap,
+                            any_force ? "stiffer law of contact" : "smaller dt"));
+}
+
+constexpr double resolved = 10;  // steps
+
+// A contact with a law of force that the steps do not follow parts with a restitution of the scheme's own.
+void of_short_contacts(const Model& model, const Summary& summary, Sentences& out) {
+  long contacts = 0, brief = 0;
+  const Impact* shortest = nullptr;
+  for (const Impact& impact : summary.impacts) {
+    if (!model.contacts.pairs[static_cast<std::size_t>(impact.pair)].law.is_force()) continue;
+    ++contacts;
+    if (impact.duration >= resolved * summary.dt) continue;
+    ++brief;
+    if (!shortest || impact.duration < shortest->duration) shortest = &impact;
+  }
+  if (!shortest) return;
+  const ContactPair& pair = model.contacts.pairs[static_cast<std::size_t>(shortest->pair)];
+  out.push_back(fmt::format("{} of {} contact{} with penalty laws lasted less than {:g} steps, the shortest {:.1f} ({}, {}): steps, and not the "
+                            "law, rule how they part; take a smaller dt, or a softer law",
+                            brief, contacts, contacts == 1 ? "" : "s", resolved, shortest->duration / summary.dt, pair.name, pair.law.name));
 }
 
 // A straight line between samples `dt` apart keeps sinc(f dt)^2 of a wave of frequency f (the transform of a triangle).
@@ -139,8 +162,8 @@ void of_softened_members(const Model&, const Summary& summary, Sentences& out) {
 
 using Rule = void (*)(const Model&, const Summary&, Sentences&);
 constexpr Rule rules[]{of_the_scheme,  of_light_contact_nodes, of_effective_restitution,
-                       of_penetration, of_coarse_motions,      of_created_energy,
-                       of_halved_steps, of_softened_members};
+                       of_penetration, of_short_contacts,      of_coarse_motions,
+                       of_created_energy, of_halved_steps,     of_softened_members};
 
 }  // namespace
 

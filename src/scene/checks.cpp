@@ -150,7 +150,8 @@ void check(TableReader& table, const ContactTable& contact) {
     return table.error(contact.a ? "a" : "b", "a contact needs a and b");
   if (!contact.a && contact.between.size() < 2)
     return table.error("between", "a contact needs two sides: between = [first, second], or more in a row");
-  if (contact.restitution.values.empty()) return table.error("restitution", "restitution has no value");
+  if (table.has("restitution") && contact.restitution.values.empty()) return table.error("restitution", "restitution has no value");
+  for (const ContactLawFault& fault : faults(contact.law, contact.restitution.values)) table.error(fault.key, fault.message);
   bool fixed = false;
   for (const ContactSides& pair : sides(contact)) {
     check_sides(table, contact, pair);

@@ -92,9 +92,10 @@ std::vector<ContactDescription> describe(const ContactTable& contact) {
     if (pair.second.name != "ground") one.b = pair.second;
     one.direction = contact.direction.vector;
     one.gap = contact.gap.values;
-    one.restitution = contact.restitution.values.front();
+    if (!contact.restitution.values.empty()) one.restitution = contact.restitution.values.front();
     if (contact.restitution.values.size() > 1) one.restitutions = contact.restitution.values;
     one.friction = contact.friction;
+    one.law = contact.law;
     one.wall = contact.wall;
     one.reach = contact.reach;
     one.gap_tolerance = contact.gap_tolerance;
@@ -102,6 +103,16 @@ std::vector<ContactDescription> describe(const ContactTable& contact) {
   }
   return out;
 }
+
+namespace {
+
+void fill_restitution(ContactTable& contact) {
+  const ContactForceLaw* law = contact_force_law(contact.law.name);
+  const bool elastic = law != nullptr && law->coefficient == nullptr;
+  if (contact.restitution.values.empty() && !elastic && !contact.law.damping_ratio) contact.restitution.values = {ContactDescription{}.restitution};
+}
+
+}  // namespace
 
 void describe_model(Scene& scene, Diagnostics& diagnostics) {
   ModelDescription& model = scene.model;
@@ -124,6 +135,7 @@ void describe_model(Scene& scene, Diagnostics& diagnostics) {
     }
     std::visit([&](const auto& s) { model.structures.push_back(describe(s)); }, structure);
   }
+  for (ContactTable& contact : scene.tables.contacts) fill_restitution(contact);
   for (const ContactTable& contact : scene.tables.contacts)
     for (ContactDescription& described : describe(contact)) model.contacts.push_back(std::move(described));
   for (const MotionTable& motion : scene.tables.motions)

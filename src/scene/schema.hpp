@@ -151,7 +151,7 @@ void visit(Archive& ar, AnalysisOptions& a) {
            "time integration: `moreau-jean`; `exact` for linear scenes, where `dt` only says when results are kept; `exponential` for scenes "
            "that yield; `event-split`: the theta-method between impacts located within the step; `auto`: `exact` or `exponential` where they "
            "can be, else `moreau-jean`, which options of its own (`theta`, `gamma`, "
-           "`newton_tolerance`, `max_newton`, `max_halvings`, `contact_solver`) also choose when no scheme is given"},
+           "`newton_tolerance`, `max_newton`, `max_halvings`, `contact_solver`, `projection`) also choose when no scheme is given"},
      a.scheme);
   ar(Field{"dt", "time step", dimension::time, range::positive}, a.dt);
   ar(Field{"accuracy",
@@ -181,6 +181,8 @@ void visit(Archive& ar, AnalysisOptions& a) {
            "`poisson` by impulses, which never does. The same for one pair alone"},
      a.impact_law);
   ar(Field{"contact_solver", "of the contact problem"}, a.contact_solver);
+  ar(Field{"projection", "moreau-jean: move penetrations back to gap 0 after each step, velocities as they are; not of penalty laws"},
+     a.projection);
   ar(Field{"contact_tolerance", "complementarity error relative to the approach velocity", {}, range::positive},
      a.contact_tolerance);
   ar(Field{"max_contact_sweeps", "gauss-seidel only", {}, {1, 1e9}}, a.max_contact_sweeps);

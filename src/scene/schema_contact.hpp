@@ -15,6 +15,27 @@ constexpr auto names_of(ContactKind) {
 }
 
 template <class Archive>
+void visit_law(Archive& ar, ContactLawChoice& c) {
+  ar(Field{"law",
+           "`newton`: impulses by Newton's restitution; or a penalty law, a force of penetration and its rate: `linear-viscoelastic`, "
+           "`modified-linear-viscoelastic`, `anagnostopoulos`, `hertz`, `hertz-damped`, `jankowski`, `khatami` (theory.md, 250-258)"},
+     c.name);
+  ar(Field{"stiffness", "of the linear penalty laws", dimension::stiffness, range::positive}, c.stiffness);
+  ar(Field{"stiffness_ratio",
+           "in place of `stiffness`, and of `anagnostopoulos`: over the static stiffness of the stiffer body at the point of contact", {},
+           range::positive},
+     c.stiffness_ratio);
+  ar(Field{"hertz_stiffness", "of the other penalty laws, by penetration^1.5, in N/m^1.5", {}, range::positive}, c.hertz_stiffness);
+  ar(Field{"damping_ratio", "xi of a penalty law, in place of `restitution`", {}, range::non_negative}, c.damping_ratio);
+  ar(Field{.key = "effective_mass",
+           .text = "m* in the damping of a penalty law",
+           .dimension = dimension::mass,
+           .range = range::positive,
+           .default_text = "1 / (H M^-1 H'), of two masses m1 m2 / (m1 + m2)"},
+     c.effective_mass);
+}
+
+template <class Archive>
 void visit(Archive& ar, ContactTable& c) {
   ar(Field{"name", "prefix of the pairs' names"}, c.name);
   ar(Field{.key = "kind",
@@ -48,11 +69,17 @@ void visit(Archive& ar, ContactTable& c) {
            "a run warns when sliding along a turned face makes the gap wrong by more (theory.md, 187)", dimension::length,
            range::positive},
      c.sliding_error);
-  ar(Field{"restitution", "e of Newton's or Poisson's law (`analysis.impact_law`); one value, or listed as `gap`", {}, range::unit}, c.restitution);
+  ar(Field{.key = "restitution",
+           .text = "e of Newton's or Poisson's law (`analysis.impact_law`), or what the damping of another law is meant to give; one value, or "
+                   "listed as `gap`",
+           .range = range::unit,
+           .default_text = "0.6"},
+     c.restitution);
   ar(Field{"friction",
-           "Coulomb's coefficient, static and sliding alike, along both tangents of the face; 0: none. Of scheme `moreau-jean`", {},
+           "Coulomb's coefficient, static and sliding alike, along both tangents of the face; 0: none. Of scheme `moreau-jean`, without `law`", {},
            range::non_negative},
      c.friction);
+  visit_law(ar, c.law);
 }
 
 }  // namespace nsframe

@@ -244,8 +244,9 @@ struct ContactTable {
   std::optional<Reference> a, b;  // in place of `between`
   Direction direction;
   PairValues gap;  // [m]
-  PairValues restitution{{ContactDescription{}.restitution}};
+  PairValues restitution;  // filled with the default where the law takes one (describe.hpp)
   double friction = ContactDescription{}.friction;
+  ContactLawChoice law;
   std::optional<Vector3> wall;  // a point of it [m]
   double reach = ContactDescription{}.reach;
   double gap_tolerance = ContactDescription{}.gap_tolerance;

@@ -93,8 +93,10 @@ inline std::string dump(const ModelDescription& m) {
   for (const auto& s : m.sections) out += dump(s);
   for (const auto& s : m.structures) out += dump(s);
   for (const auto& c : m.contacts)
-    out += fmt::format("contact {} {} {} {} {} gap {} e {}\n", c.name, int(c.kind), c.a.name, name(c.b),
-                       numbers(c.direction), numbers(c.gap), c.restitution);
+    out += fmt::format("contact {} {} {} {} {} gap {} e {} {} {}\n", c.name, int(c.kind), c.a.name, name(c.b),
+                       numbers(c.direction), numbers(c.gap), c.restitution, c.law.name,
+                       numbers(std::array{c.law.stiffness.value_or(0), c.law.stiffness_ratio.value_or(0), c.law.hertz_stiffness.value_or(0),
+                                c.law.damping_ratio.value_or(-1), c.law.effective_mass.value_or(0)}));
   for (const auto& s : m.stages) {
     out += fmt::format("stage {} {} {} {} {} targets {} {} {} {} {} {}\n", s.name, s.options.control, name(s.mode),
                        name(s.control_node), s.control_dof, fmt::join(s.options.targets, " "), s.options.relative, s.options.step,

@@ -239,6 +239,19 @@ TEST_CASE("a node to keep that isn't in the scene is an error") {
         "s.toml:4:9: error: there is no node 'lef.2'; did you mean 'left.2'?");
 }
 
+TEST_CASE("keys that do not go with a law of contact are errors at their values") {
+  const auto contact = [](const std::string& keys) { return error("[[contact]]\nbetween = [\"a.1\", \"b.1\"]\n" + keys); };
+  CHECK(contact("law = \"jankovski\"\nhertz_stiffness = 1") == "s.toml:3:7: error: contact law 'jankovski' is not known; did you mean 'jankowski'?");
+  CHECK(contact("law = \"hertz\"") == "s.toml:1:1: error: law 'hertz' needs hertz_stiffness");
+  CHECK(contact("law = \"hertz\"\nhertz_stiffness = 1e8\nrestitution = 0.6") == "s.toml:5:15: error: law 'hertz' is elastic: it has no restitution");
+  CHECK(contact("stiffness = 1e6") == "s.toml:3:13: error: law 'newton' has no stiffness");
+  CHECK(contact("law = \"khatami\"\nhertz_stiffness = 1e8\ndamping_ratio = 0.3\nrestitution = 0.6") ==
+        "s.toml:5:17: error: law 'khatami' has either restitution or damping_ratio");
+  CHECK(contact("law = \"linear-viscoelastic\"\nstiffness = -1") == "s.toml:4:13: error: stiffness = -1, must be positive");
+  CHECK(contact("law = \"hertz-damped\"\nhertz_stiffness = 1e8\nrestitution = 0").find("needs at least 1e-06") != std::string::npos);
+  CHECK(contact("law = \"hertz\"\nhertz_stiffness = \"1e8 N/m\"").find("s.toml:4:19: error: ") == 0);
+}
+
 TEST_CASE("a contact without two sides is an error") {
   CHECK(error("[[contact]]\nbetween = [\"a\"]") ==
         "s.toml:2:11: error: a contact needs two sides: between = [first, second], or more in a row");

@@ -103,7 +103,7 @@ TEST_CASE("options of Moreau-Jean without a scheme ask for it, also on the comma
   CHECK(analysis("", {}).scheme == "auto");
   CHECK(analysis("[analysis]\ndt = 0.01", {}).scheme == "auto");
   for (const char* option : {"theta = 0.5", "gamma = 1.5", "newton_tolerance = 1e-9", "max_newton = 20", "max_halvings = 3",
-                             "contact_solver = \"gauss-seidel\""}) {
+                             "contact_solver = \"gauss-seidel\"", "projection = true"}) {
     CAPTURE(option);
     const AnalysisOptions a = analysis(std::string("[analysis]\n") + option, {});
     CHECK(a.scheme == "moreau-jean");

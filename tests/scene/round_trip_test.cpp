@@ -286,12 +286,32 @@ kind = "nodes"
 a = "a.3"
 b = "c.1"
 direction = [1, 1, 0]
+[[contact]]
+between = ["a.3", "c.1"]
+law = "jankowski"
+hertz_stiffness = 6e7
+damping_ratio = 0.4
+effective_mass = "2000 kg"
+[[contact]]
+between = ["a.3", "c.1"]
+law = "hertz"
+hertz_stiffness = 6e7
+[[contact]]
+between = ["a.3", "c.1"]
+law = "linear-viscoelastic"
+stiffness = "5 kN/mm"
+[[contact]]
+between = ["a.3", "c.1"]
+law = "anagnostopoulos"
+stiffness_ratio = 0.5
+restitution = 0.65
 [gravity]
 acceleration = "1 g"
 direction = [1, 0, -3]
 statically_first = false
 [analysis]
 contact_solver = "gauss-seidel"
+projection = true
 threads = 2
 [output]
 nodes = ["a.top", "b.101"]
