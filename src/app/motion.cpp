@@ -185,14 +185,21 @@ int filter(const MotionArguments& a) {
                            options.to > 0 ? fmt::format(" to {:g} Hz", options.to) : "", options.order));
 }
 
+double angle_of(const std::string& text) {
+  try {
+    const Quantity read = parse_quantity(text);
+    return read.dimension == dimension::none ? read.value * pi / 180 : parse_quantity(text, dimension::angle);
+  } catch (const QuantityError& problem) {
+    throw InputError(fmt::format("error: --angle = \"{}\"{}", text, problem.what()));
+  }
+}
+
 int rotate(const MotionArguments& a) {
   Record first = load_record(a.record, a.record.files[0]);
   const Record second = load_record(a.record, a.record.files[1]);
   if (std::abs(first.dt - second.dt) > 1e-6 * first.dt)
     throw InputError(fmt::format("error: the components have steps of {:g} and {:g} s", first.dt, second.dt));
-  const Quantity angle = parse_quantity(a.angle);
-  const double radians =
-      angle.dimension == dimension::none ? angle.value * pi / 180 : quantity("--angle", a.angle, dimension::angle);
+  const double radians = angle_of(a.angle);
   if (first.acceleration.size() != second.acceleration.size())
     first.notes.push_back(fmt::format("components of {} and {} values: the shorter goes on with zeros",
                                       first.acceleration.size(), second.acceleration.size()));
@@ -290,6 +297,8 @@ void add_motion_command(CLI::App& program, std::function<int()>& command) {
     c->add_option("--over", a->over,
                   "periods over which the geometric mean of the ratio to the target becomes 1, as 0.1,2");
     c->add_option("--at-least", a->at_least, "in place of the mean: the least ratio over the periods, as 0.9");
+    for (const char* option : {"--over", "--at-least", "--damping"})
+      c->get_option(option)->needs(c->get_option("--target"));
   }
   {
     const auto [c, a] = add("baseline", "take a polynomial from the acceleration", baseline);

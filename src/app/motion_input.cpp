@@ -40,15 +40,27 @@ void add_target_options(CLI::App& command, TargetArguments& a, bool required) {
   CLI::Option* target = command.add_option(
       "--target", a.target, "spectrum: eurocode8, asce7, or a table file of period [s] and pseudo-acceleration");
   if (required) target->required();
-  command.add_option("--type", a.type, "of Eurocode 8: 1 or 2 (default: 1)")->check(CLI::Range(1, 2));
-  command.add_option("--ground", a.ground, "of Eurocode 8: A to E (default: A)");
-  command.add_option("--ag", a.ag, "of Eurocode 8, as \"0.3 g\"");
-  command.add_option("--sds", a.sds, "of ASCE 7, as \"1.0 g\"");
-  command.add_option("--sd1", a.sd1, "of ASCE 7, as \"0.6 g\"");
-  command.add_option("--tl", a.tl, "of ASCE 7, long-period transition (default: 8 s)");
-  command.add_option("--target-unit", a.unit, "of a table that doesn't say its unit");
+  for (CLI::Option* option :
+       {command.add_option("--type", a.type, "of Eurocode 8: 1 or 2 (default: 1)")->check(CLI::Range(1, 2)),
+        command.add_option("--ground", a.ground, "of Eurocode 8: A to E (default: A)"),
+        command.add_option("--ag", a.ag, "of Eurocode 8, as \"0.3 g\""),
+        command.add_option("--sds", a.sds, "of ASCE 7, as \"1.0 g\""),
+        command.add_option("--sd1", a.sd1, "of ASCE 7, as \"0.6 g\""),
+        command.add_option("--tl", a.tl, "of ASCE 7, long-period transition (default: 8 s)"),
+        command.add_option("--target-unit", a.unit, "of a table that doesn't say its unit")})
+    option->needs(target);
   command.add_option("--damping", a.damping, "ratio (default: 5 %)");
 }
+
+namespace {
+
+// Options of another target than the one given would be without effect.
+void refuse(const TargetArguments& a, std::initializer_list<std::pair<const char*, bool>> options) {
+  for (const auto& [option, given] : options)
+    if (given) throw InputError(fmt::format("error: {} does not belong to the target {}", option, a.target));
+}
+
+}  // namespace
 
 TargetSpectrum load_target(const TargetArguments& a) {
   const auto needed = [](const char* option, const std::string& text) {
@@ -57,13 +69,29 @@ TargetSpectrum load_target(const TargetArguments& a) {
   };
   const double damping = ratio("--damping", a.damping);
   if (a.target == "eurocode8") {
-    if (a.ground.size() != 1) throw InputError(fmt::format("error: --ground {}: must be A, B, C, D or E", a.ground));
-    return eurocode8({a.type, a.ground.front(), needed("--ag", a.ag), damping});
+    refuse(a, {{"--sds", !a.sds.empty()},
+               {"--sd1", !a.sd1.empty()},
+               {"--tl", !a.tl.empty()},
+               {"--target-unit", !a.unit.empty()}});
+    if (a.ground.size() > 1) throw InputError(fmt::format("error: --ground {}: must be A, B, C, D or E", a.ground));
+    return eurocode8(
+        {a.type == 0 ? 1 : a.type, a.ground.empty() ? 'A' : a.ground.front(), needed("--ag", a.ag), damping});
   }
   if (a.target == "asce7") {
     if (damping != 0.05) throw InputError("error: the spectrum of ASCE 7 is for 5 % damping");
-    return asce7({needed("--sds", a.sds), needed("--sd1", a.sd1), quantity("--tl", a.tl, dimension::time)});
+    refuse(a, {{"--type", a.type != 0},
+               {"--ground", !a.ground.empty()},
+               {"--ag", !a.ag.empty()},
+               {"--target-unit", !a.unit.empty()}});
+    return asce7(
+        {needed("--sds", a.sds), needed("--sd1", a.sd1), a.tl.empty() ? 8 : quantity("--tl", a.tl, dimension::time)});
   }
+  refuse(a, {{"--type", a.type != 0},
+             {"--ground", !a.ground.empty()},
+             {"--ag", !a.ag.empty()},
+             {"--sds", !a.sds.empty()},
+             {"--sd1", !a.sd1.empty()},
+             {"--tl", !a.tl.empty()}});
   std::optional<AccelerationUnit> unit;
   if (!a.unit.empty()) {
     unit = parse_acceleration_unit(a.unit);

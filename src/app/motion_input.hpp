@@ -26,9 +26,9 @@ void add_record_options(CLI::App& command, RecordArguments& arguments, int least
 Record load_record(const RecordArguments& arguments, const std::string& file);
 
 struct TargetArguments {
-  std::string target;  // "eurocode8", "asce7" or a file; empty: none
-  std::string ag, ground = "A", sds, sd1, tl = "8 s", unit, damping = "5 %";
-  int type = 1;
+  std::string target;                                           // "eurocode8", "asce7" or a file; empty: none
+  std::string ag, ground, sds, sd1, tl, unit, damping = "5 %";  // empty: not given
+  int type = 0;                                                 // 0: not given
 };
 void add_target_options(CLI::App& command, TargetArguments& arguments, bool required);
 TargetSpectrum load_target(const TargetArguments& arguments);

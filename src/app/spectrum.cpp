@@ -213,6 +213,10 @@ void add_spectrum_command(CLI::App& program, std::function<int()>& command) {
   c->add_option("--floor", a->floor, "the record is a folder of results: floor spectra of this node, or of all");
   c->add_option("-o,--output", a->output, "folder for spectrum.csv, spectrum.json, spectrum.svg");
   c->add_flag("--json", a->json, "print JSON");
+  for (const char* option : {"--periods", "--count"}) c->get_option("--at")->excludes(c->get_option(option));
+  for (const char* option :
+       {"--periods", "--count", "--at", "--at-samples", "--unit", "--dt", "--channel", "--format", "--damping"})
+    c->get_option("--floor")->excludes(c->get_option(option));
   c->callback([&command, a] { command = [a] { return spectrum(*a); }; });
 }
 

@@ -80,6 +80,9 @@ with tempfile.TemporaryDirectory() as folder:
     require(".at2 or .csv" in nsframe("motion", "convert", RECORD, "-o", out("x.dat"), code=2), "unknown output")
     require("did you mean eurocode8" in nsframe("motion", "scale", RECORD, "--target", "eurocode", "--over", "0.1,1", "-o", out("x.at2"), code=2), "nearest target")
 
+    require("--target" in nsframe("motion", "scale", RECORD, "--pga", "0.3 g", "--over", "0.1,1", "-o", out("x.at2"), code=2), "a range without a target")
+    require("does not belong" in nsframe("motion", "scale", RECORD, *target, "--sds", "1 g", "--over", "0.1,1", "-o", out("x.at2"), code=2), "of ASCE 7")
+    require("--angle" in nsframe("motion", "rotate", RECORD, RECORD, "--angle", "3 m", "-o", out("x.at2"), code=2), "no angle")
     nsframe("motion", "baseline", RECORD, "--degree", "2", "--rest", "-o", out("b.csv"))
     based = info(out("b.csv"))
     require(abs(based["final_velocity"]) < 1e-7 and abs(based["final_displacement"]) < 1e-6, "at rest: %s" % based)
@@ -131,5 +134,6 @@ with tempfile.TemporaryDirectory() as folder:
     summary = json.load(open(out("run/summary.json")))["floor_spectra"]
     near(max(max(f["psa"]) for f in floors["spectra"]), max(s["psa"] for s in summary), 1e-9, "PSA of the summary")
     require("no floor spectrum" in nsframe("spectrum", out("run"), "--floor", "nothing", code=2), "unknown floor")
+    require("--at" in nsframe("spectrum", out("run"), "--floor", "all", "--at", "0.3", code=2), "options of records")
     require("folder of results" in nsframe("spectrum", folder, "--floor", "all", code=4), "no results")
 print("ok")

@@ -152,7 +152,7 @@ TEST_CASE("a file of a gigabyte ends in an error, in bounded memory") {
     CHECK(fault.line == static_cast<int>(max_record_samples) + 1);
     CHECK(fault.text == "more than 10000000 values");
   }
-  CHECK(peak_memory() - before < 300000);  // [kB]: 80 MB of values, while the array grows the old one beside the new
+  CHECK(peak_memory() - before < 600000);  // [kB]: 80 MB of values, and what was freed while the array grew
 }
 
 TEST_CASE("plain text has one column with dt from outside or from a comment, or time and acceleration") {
