@@ -103,6 +103,7 @@ class Nsframe:
         with tempfile.TemporaryDirectory() as folder:
             values = dict(settings)
             values["output.frames"] = 0
+            values["output.floor_spectra"] = "none"
             values["output.history"] = '["nodes"]' if nodes else "[]"
             if nodes:
                 values["output.nodes"] = "[%s]" % ", ".join('"%s"' % node for node in nodes)

@@ -106,7 +106,7 @@ def execute(case, run, folder):
             with open(path) as file:
                 rows = [[float(word) for word in line.split()] for line in file if line.strip()]
             rows = [row for row in rows if abs((row[0] - first) / interval - round((row[0] - first) / interval)) < 1e-6]
-        if cpu[0] > 5:
+        if cpu[0] > 2:
             break
     return dict(run, cpu_s=min(cpu), parted_steps=parted, steps=steps, time=[row[0] for row in rows],
                 history=[[row[1 + k] for row in rows] for k in range(len(case["watch"]))])

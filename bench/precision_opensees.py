@@ -4,21 +4,22 @@ from pair import Opensees
 from precision_cases import INTERVAL, STEPS
 from precision_runs import ask, candidates, done, error_of, fastest, front, judged, nearest, reason, timed_again
 
-# Masses and springs: what decides the error, at every step, each with the algebra that is best for it ...
+# Masses and springs: what decides the error, at every step; then what decides the time, at 1 ms, one choice after the other.
 IMPLICIT = [dict(integrator=i) for i in (["Newmark", 0.5, 0.25], ["HHT", 0.9])]
 EXPLICIT = dict(integrator=["ExplicitDifference"], system="Diagonal", algorithm="Linear")
-# ... then what decides the time, at 1 ms.
-CHAIN_SPEED = [dict(system=s, algorithm=a, tolerance=t) for s in ("FullGeneral", "BandSPD", "ProfileSPD", "BandGeneral")
-               for a in ("Newton", "KrylovNewton", "ModifiedNewton") for t in (1, 1e4)]  # times the case's tolerance
+ALGORITHMS = ("KrylovNewton", "Newton", "ModifiedNewton")
+CHAIN_SPEED = [("system", ("FullGeneral", "BandSPD", "ProfileSPD", "BandGeneral")), ("algorithm", ALGORITHMS)]
+LOOSE = 1e4  # times the case's tolerance, tried last
 
-# The two-story pair: penalty and step decide the error, the rest the time.
-PAIR_SPEED = [dict(system=s, algorithm=a, damping="modalDampingQ", tolerance=1e-8) for s in ("BandSPD", "ProfileSPD", "UmfPack")
-              for a in ("Newton", "KrylovNewton", "ModifiedNewton")]
-PAIR_SPEED += [dict(PAIR_SPEED[1], damping="modalDamping"), dict(PAIR_SPEED[1], tolerance=1e-6), dict(PAIR_SPEED[2], tolerance=1e-6)]
+# The two-story pair: penalty, integrator and step decide the error, the rest the time.
+PAIR_START = dict(system="BandSPD", algorithm="KrylovNewton", damping="modalDampingQ", tolerance=1e-8, penalty=1e8, dt=1e-3,
+                  integrator=IMPLICIT[0]["integrator"])
+PAIR_SPEED = [("system", ("BandSPD", "ProfileSPD", "UmfPack")), ("algorithm", ALGORITHMS), ("damping", ("modalDampingQ", "modalDamping")),
+              ("tolerance", (1e-8, 1e-6))]
+ALGEBRA = ("system", "algorithm", "damping")
 SPEED_END = 1.5   # [s] of motion in which the settings of the pair are tried for speed
 PAIR_STEPS = {"elastic": STEPS, "displacement-based": STEPS[:4]}
 SLOW_STEP, SLOW_PENALTY = 6e-4, 1e8  # at shorter steps than this the softest penalties aren't tried: they bound the error
-INTEGRATORS = (["Newmark", 0.5, 0.25], ["HHT", 0.9])
 
 
 def words(values):
@@ -74,11 +75,11 @@ def chain(python, case, reference, options):
     speeds = []
     if implicit:
         typical = nearest(implicit, 1e-3)
-        ways = [dict(way, tolerance=way["tolerance"] * case.tolerance) for way in (CHAIN_SPEED[:1] if options.quick else CHAIN_SPEED)]
-        progress("OpenSees: %d settings for the time" % len(ways))
-        speeds = runs.run([{**typical, **way} for way in ways], options.runs)
-        quick = fastest(speeds, typical["error_m"]) or typical
-        algebra = {key: quick[key] for key in ("system", "algorithm", "tolerance")}
+        progress("OpenSees: what is fastest")
+        choices = [] if options.quick else CHAIN_SPEED + [("tolerance", (case.tolerance, LOOSE * case.tolerance))]
+        start = {key: typical[key] for key in runs.KEYS if key in typical}
+        algebra, speeds = fastest(lambda setting: runs.run([setting], options.runs)[0], start, choices)
+        algebra = {key: algebra[key] for key in ("system", "algorithm", "tolerance")}
         implicit_again = [{**run, **algebra} if run["algorithm"] != "Linear" else run for run in chosen]
         chosen = timed_again(runs.run(chosen, options.runs), runs.run(implicit_again, options.runs))
     rows = [dict(run, program="OpenSees", series="OpenSees", setting=chain_text(run)) for run in front(chosen)]
@@ -103,17 +104,13 @@ def pair(python, case, reference, options):
             return dict(setting, failed=reason(problem))
         return row
 
-    speeds = []
-    for way in PAIR_SPEED[:1] if options.quick else PAIR_SPEED:
-        progress("OpenSees for the time: %s" % ", ".join(str(value) for value in way.values()))
-        speeds.append(run(dict(way, penalty=1e8, dt=1e-3, integrator=INTEGRATORS[0]), min(SPEED_END, end), 1))
-    good = done(speeds)
-    if not good:
-        return [], dict(time=speeds), ""
-    algebra = {key: min(good, key=lambda row: row["cpu_s"])[key] for key in PAIR_SPEED[0]}
-    settings = [dict(algebra, penalty=penalty, dt=dt, integrator=integrator) for dt in PAIR_STEPS[case.columns]
-                for penalty in case.penalties for integrator in INTEGRATORS
-                if dt > SLOW_STEP or (penalty >= SLOW_PENALTY and integrator is INTEGRATORS[0])]
+    def short(setting):
+        progress("OpenSees for the time: %s, tolerance %g" % (", ".join(setting[key] for key in ALGEBRA), setting["tolerance"]))
+        return run(setting, min(SPEED_END, end), 1)
+
+    algebra, speeds = fastest(short, PAIR_START, [] if options.quick else PAIR_SPEED)
+    settings = [{**algebra, **way, "penalty": penalty, "dt": dt} for dt in PAIR_STEPS[case.columns] for penalty in case.penalties
+                for way in IMPLICIT if dt > SLOW_STEP or (penalty >= SLOW_PENALTY and way is IMPLICIT[0])]
     tried = []
     for setting in settings[:1] if options.quick else settings:
         progress("OpenSees: penalty %.0e N/m, %s, dt = %g ms" % (setting["penalty"], words(setting["integrator"]), 1e3 * setting["dt"]))
@@ -121,6 +118,7 @@ def pair(python, case, reference, options):
     chosen = candidates(tried)
     again = [run(row, end, options.runs) if row["cpu_s"] < options.long else row for row in chosen]
     rows = [dict(row, program="OpenSees", series="OpenSees", setting="ViscoelasticGap %.0e, %s; %s, tolerance %g" % (
-        row["penalty"], words(row["integrator"]), ", ".join(row[key] for key in ("system", "algorithm", "damping")), row["tolerance"]))
+        row["penalty"], words(row["integrator"]), ", ".join(row[key] for key in ALGEBRA), row["tolerance"]))
             for row in front(timed_again(chosen, again))]
-    return rows, dict(error=tried, time=speeds), good[0]["version"]
+    versions = [run["version"] for run in done(speeds + tried)]
+    return rows, dict(error=tried, time=speeds), versions[0] if versions else "that failed"

@@ -76,7 +76,8 @@ def tried_text(program, tried):
     if error:
         at = {dt: [run["error_m"] for run in done(error) if run["dt"] == dt] for dt in {run["dt"] for run in done(error)}}
         spans = "; ".join("%g ms %s to %s m" % (1e3 * dt, number(min(e)), number(max(e))) for dt, e in sorted(at.items(), reverse=True))
-        lines.append("%s: %d settings tried for the error (%d failed; error at %s)" % (program, len(error), len(error) - len(done(error)), spans))
+        lines.append("%s: %d settings tried for the error (%d failed; error at %s)" % (
+            program, len(error), len(error) - len(done(error)), spans))
     if time:
         best = min((run["error_m"] for run in done(time)), default=0)
 
@@ -102,7 +103,7 @@ def case_text(data):
         ["program", "setting", "dt, ms", "CPU, ms", "largest error, m"], lines))
     if data["compared"]:
         rows = [[c["peer"], "%g" % (1e3 * c["dt"]), number(c["error_m"]), number(1e3 * c["cpu_s"]), c["nsframe"] or "none",
-                 number(c["nsframe_error_m"]), number(None if c["nsframe_cpu_s"] is None else 1e3 * c["nsframe_cpu_s"]), part_text(c["part"])]
+                 number(c["nsframe_error_m"]), number(c["nsframe_cpu_s"] and 1e3 * c["nsframe_cpu_s"]), part_text(c["part"])]
                 for c in data["compared"]]
         text += "\nAt the error of each peer's run, nsframe's cheapest run that is no less accurate:\n\n" + table(
             ["peer", "dt, ms", "its error, m", "its CPU, ms", "nsframe", "error, m", "CPU, ms", "part of its time"], rows)
@@ -121,9 +122,11 @@ def panel_of(panel, case, handles):
         points = [row for row in rows if "accuracy" in row["setting"]]
         for shown, line, fill, name in ((lines, "-", colour, series), (points, "none", "white", series + ", by accuracy")):
             if shown:
-                handles[name], = panel.plot([1e3 * row["cpu_s"] for row in shown], [max(row["error_m"], 1e-17) for row in shown], linestyle=line,
-                                            marker=marker, color=colour, markerfacecolor=fill, linewidth=1, markersize=8 if marker == "*" else 5)
-    panel.set(xscale="log", yscale="log", title=case["title"], xlabel="CPU time of the step loop, ms", ylabel="largest displacement error, m")
+                handles[name], = panel.plot([1e3 * row["cpu_s"] for row in shown], [max(row["error_m"], 1e-17) for row in shown],
+                                            linestyle=line, marker=marker, color=colour, markerfacecolor=fill, linewidth=1,
+                                            markersize=8 if marker == "*" else 5)
+    panel.set(xscale="log", yscale="log", title=case["title"], xlabel="CPU time of the step loop, ms",
+              ylabel="largest displacement error, m")
     panel.title.set_fontsize(9)
     if case["own_error_m"]:
         panel.axhline(case["own_error_m"], color="grey", linestyle=":", linewidth=1)

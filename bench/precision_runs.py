@@ -86,10 +86,25 @@ def candidates(runs):
     return [pure[round(k * (len(pure) - 1) / (MOST - 1))] for k in range(MOST)]
 
 
-def fastest(runs, error):
-    """The fastest of runs that differ in what should not change the error; None where all did."""
-    good = [run for run in done(runs) if run["error_m"] <= SAME * error]
-    return min(good, key=lambda run: run["cpu_s"], default=None)
+def fastest(run, start, choices):
+    """Tries one choice after the other, keeping the fastest value of each: (settings, every run made).
+
+    `run` makes a run of settings; `choices`: pairs of a key and its values. What it does to the error beyond SAME rules a value out.
+    """
+    best = run(start)
+    tried = [best]
+    for key, values in choices:
+        for value in values:
+            if value == start[key]:
+                continue
+            other = run({**start, key: value})
+            tried.append(other)
+            if "failed" in other:
+                continue
+            if "failed" in best or (other["error_m"] <= SAME * best["error_m"] and other["cpu_s"] < best["cpu_s"]):
+                best = other
+        start = {**start, key: best[key]}
+    return start, tried
 
 
 def timed_again(before, after):

@@ -6,7 +6,7 @@ import os
 import subprocess
 import tempfile
 
-from harness import BENCH, BenchError, measure, progress
+from harness import ROOT, BenchError, measure, progress
 from pair import Opensees
 from precision_cases import INTERVAL, STEPS
 from precision_runs import ask, candidates, fastest, front, judged, nearest, reason, timed_again
@@ -30,8 +30,8 @@ def interpreter(options):
 def version():
     """Of the Debian package; Siconos' Python module doesn't tell its own."""
     try:
-        found = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", "python3-siconos"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                               text=True)
+        found = subprocess.run(["dpkg-query", "-W", "-f", "${Version}", "python3-siconos"], stdout=subprocess.PIPE,
+                               stderr=subprocess.DEVNULL, text=True)
         return found.stdout.strip() or "of unknown version"
     except OSError:
         return "of unknown version"
@@ -86,7 +86,8 @@ def read_csv(path):
 def exported(nsframe, case):
     """The matrices of the linear pair, as nsframe writes them; the same model in Siconos to the last digit."""
     with tempfile.TemporaryDirectory() as folder:
-        command = [nsframe.program, "export", os.path.join(os.path.dirname(BENCH), "examples", case.scene, "scene.toml"), "-q", "-o", folder]
+        scene = os.path.join(ROOT, "examples", case.scene, "scene.toml")
+        command = [nsframe.program, "export", scene, "-q", "-o", folder]
         for key, value in case.settings.items():
             command += ["--set", "%s=%s" % (key, value)]
         measure(command)
@@ -95,14 +96,17 @@ def exported(nsframe, case):
         dofs = {(row[1], row[2]): int(row[0]) - 1 for row in read_csv(os.path.join(folder, "dofs.csv"))}
         pairs = read_csv(os.path.join(folder, "contacts.csv"))
     n = len(data["M"])
-    data.update(gap=[float(p[2]) for p in pairs], e=[float(p[3]) for p in pairs], q0=[0.0] * n, v0=[0.0] * n, f=[row[0] for row in loads],
-                r=[row[1] for row in loads], watch=[dofs[node, "ux"] for node in case.nodes], motion=Opensees(None).record)
+    data.update(gap=[float(p[2]) for p in pairs], e=[float(p[3]) for p in pairs], q0=[0.0] * n, v0=[0.0] * n,
+                f=[row[0] for row in loads], r=[row[1] for row in loads], watch=[dofs[node, "ux"] for node in case.nodes],
+                motion=Opensees(None).record)
     return data
 
 
 # --- runs
 
 class Runs:
+    """Of one case; all in one process, but for the event-driven one."""
+
     KEYS = ("scheme", "theta", "gamma", "dt", "solver", "limit")
 
     def __init__(self, python, case, nsframe, reference, options):
@@ -134,8 +138,9 @@ def rows(python, case, nsframe, reference, options):
     if chosen:
         typical = nearest(chosen, 1e-3)
         progress("Siconos: %d solvers for the time" % len(SOLVERS))
-        speeds = runs.run([dict(typical, solver=solver) for solver in SOLVERS], options.runs)
-        solver = (fastest(speeds, typical["error_m"]) or typical)["solver"]
+        quickest, speeds = fastest(lambda setting: runs.run([setting], options.runs)[0],
+                                   {key: typical[key] for key in runs.KEYS if key in typical}, [("solver", SOLVERS)])
+        solver = quickest["solver"]
         best = front(timed_again(chosen, runs.run([dict(run, solver=solver) for run in chosen], options.runs)))
         found = [dict(run, program="Siconos", series="Siconos, Moreau-Jean",
                       setting="Moreau-Jean, θ = %g, γ = %g; %s" % (run["theta"], run["gamma"], run["solver"])) for run in best]

@@ -162,7 +162,7 @@ def execute(case, model, run):
     try:
         cpu, times, history = once(case, model, run, True)
         every = [cpu]
-        while len(every) < run["repeat"] and cpu < 5:
+        while len(every) < run["repeat"] and cpu < 2:
             every.append(once(case, model, run, False)[0])
     except Exception as problem:  # Siconos throws its own kinds
         return dict(run, failed=str(problem).strip().splitlines()[-1] if str(problem).strip() else type(problem).__name__)

@@ -3,7 +3,8 @@
 
     base <- materials <- elements <- models <- assembly <- integrators <- app
     contact: base, models/contacts.hpp     modal: base     spectra: base     integrators: also contact
-    scene: base .. models     output: base .. models, spectra     study: base .. models     app, tests, bench: anything
+    scene: base .. models     output: base .. models, spectra     study: base .. models     report: base, output
+    app, tests, bench: anything
 
 A test or a bench may also name a helper in its own folder without a path.
 
@@ -25,6 +26,7 @@ ALLOWED["scene"] = set(CHAIN[:4]) | {"scene"}
 ALLOWED["spectra"] = {"base", "spectra"}
 ALLOWED["study"] = set(CHAIN[:4]) | {"study"}
 ALLOWED["output"] = set(CHAIN[:4]) | {"output", "spectra"}
+ALLOWED["report"] = {"base", "output", "report"}
 ANYTHING = {"app", "tests", "bench"}
 AT_ROOT = {"materials", "elements", "models", "tests", "bench"}  # the others are below src/
 FOLDERS = set(ALLOWED) | ANYTHING
