@@ -99,7 +99,7 @@ def case_text(data):
         lines.append([row["program"], row["setting"], "%g" % (1e3 * row["dt"]), "–" if failed else number(1e3 * row["cpu_s"]),
                       failed if failed else number(row["error_m"])])
     own = "" if data["own_error_m"] is None else "; its own error %s m" % number(data["own_error_m"])
-    text = "## %s\n\n%g s. Reference: %s%s.\n\n%s" % (data["title"], data["duration"], data["reference"], own, table(
+    text = "## %s\n\n%s. %g s. Reference: %s%s.\n\n%s" % (data["title"], data["measured"], data["duration"], data["reference"], own, table(
         ["program", "setting", "dt, ms", "CPU, ms", "largest error, m"], lines))
     if data["compared"]:
         rows = [[c["peer"], "%g" % (1e3 * c["dt"]), number(c["error_m"]), number(1e3 * c["cpu_s"]), c["nsframe"] or "none",

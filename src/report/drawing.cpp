@@ -159,7 +159,8 @@ Json drawing(const RunFolder& run) {
                {"scale", 1},
                {"note", ""}};
   if (run.time.empty() || run.recorded.empty()) {
-    view["note"] = "The motion is not in these results: history = [\"nodes\"] in [output] keeps it.";
+    view["note"] = run.summary.at("steps") == 0 ? "At rest: only a time history is drawn in motion."
+                                                : "At rest: the motion is not in these results; history = [\"nodes\"] in [output] keeps it.";
     return view;
   }
   const std::vector<std::size_t> rows = frame_rows(run);

@@ -90,7 +90,7 @@ Json largest_of(const Json& items, const char* key, const Describe& describe) {
 
 Json peaks_json(const Json& summary) {
   Json twist;
-  double largest = 0;
+  double largest = 1e-9;  // [rad]; less is rounding
   for (const Json& peak : summary.at("peaks")) {
     if (peak.at("twist").get<double>() <= largest) continue;
     largest = peak.at("twist").get<double>();

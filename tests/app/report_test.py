@@ -167,7 +167,7 @@ class PageTest(unittest.TestCase):
             _, data, _ = make(folder, "pull_back", "output.history=[]", "output.floor_spectra=none", "analysis.duration=0.5")
             self.assertEqual(len(data["notes"]), 5)
             self.assertIn('history = ["nodes"]', data["notes"][0])
-            self.assertIn("motion is not in these results", data["view"]["note"])
+            self.assertIn("the motion is not in these results", data["view"]["note"])
 
     def test_wrong_folders_are_refused(self):
         with tempfile.TemporaryDirectory() as name:
@@ -206,7 +206,7 @@ class BrowserTest(unittest.TestCase):
     def browse(self, page, *flags):
         with tempfile.TemporaryDirectory() as profile:
             command = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", "--user-data-dir=" + profile, "--enable-logging=stderr",
-                       "--hide-scrollbars", "--virtual-time-budget=4000", *flags, "file://%s" % page]
+                       "--hide-scrollbars", "--virtual-time-budget=8000", *flags, "file://%s" % page]
             result = subprocess.run(command, capture_output=True, text=True, timeout=240)
         self.assertEqual(result.returncode, 0, result.stderr[-2000:])
         self.assertEqual([line for line in result.stderr.splitlines() if "CONSOLE" in line], [])
@@ -234,6 +234,52 @@ class BrowserTest(unittest.TestCase):
                 if KEEP:
                     KEEP.mkdir(parents=True, exist_ok=True)
                     shutil.copy(shot, KEEP / ("report_%d.png" % width))
+
+    def test_controls_do_what_they_say(self):
+        """Clicks and drags on a copy of the page, by a script that leaves what came of it in the document."""
+        actions = """<script>addEventListener("load", () => setTimeout(() => {
+          const {view, charts: [chart]} = report, box = chart.canvas.getBoundingClientRect(), said = document.body.dataset;
+          const at = (type, part, canvas = chart.canvas) => canvas.dispatchEvent(new PointerEvent(type,
+            {pointerType: "mouse", pointerId: 1, clientX: box.left + part * box.width, clientY: box.top + 60, bubbles: true}));
+          const start = view.time;
+          let waits = 0;
+          view.play.click();
+          const wait = setInterval(() => {
+            if (view.time === start && ++waits < 50) return;
+            clearInterval(wait);
+            said.played = view.time - start;
+            view.play.click();
+            document.querySelector("tr.jump").click();
+            said.jumped = view.time;
+            at("pointerdown", 0.3); at("pointermove", 0.6); at("pointerup", 0.6);
+            said.zoomed = clock.window.join(" ");
+            chart.canvas.dispatchEvent(new MouseEvent("dblclick"));
+            said.whole = clock.window.join(" ");
+            at("pointerdown", 0.5); at("pointerup", 0.5);
+            said.pointed = clock.cursor - view.time;
+            const before = view.canvas.toDataURL();
+            document.querySelectorAll(".view button")[2].click();
+            said.turned = before !== view.canvas.toDataURL();
+            chart.host.querySelector(".legend button").click();
+            said.hidden = chart.shown.filter(shown => !shown).length;
+            said.failed = report.errors.join("; ");
+          }, 100);
+        }, 100));</script></body>"""
+        with tempfile.TemporaryDirectory() as folder:
+            page, _, summary = make(folder, *PAIR)
+            copy = pathlib.Path(folder) / "copy.html"
+            # a browser without a screen draws no frames by itself
+            frames = "<script>window.requestAnimationFrame = draw => setTimeout(() => draw(performance.now()), 16)</script></head>"
+            copy.write_text(page.replace("</head>", frames, 1).replace("</body>", actions), encoding="utf-8")
+            dom = self.browse(copy, "--dump-dom", "--window-size=1280,900")
+            said = dict(re.findall(r'data-(\w+)="([^"]*)"', re.search(r"<body[^>]*>", dom).group(0)))
+        self.assertGreater(float(said["played"]), 0)
+        self.assertEqual(float(said["jumped"]), summary["poundings"][0]["t"])
+        first, last = map(float, said["zoomed"].split())
+        self.assertTrue(0.5 < first < 2 and 3 < last < 4.5, said["zoomed"])
+        self.assertEqual(said["whole"], "0 6")
+        self.assertEqual(float(said["pointed"]), 0)
+        self.assertEqual((said["turned"], said["hidden"], said["failed"]), ("true", "1", ""))
 
 
 if __name__ == "__main__":

@@ -36,7 +36,7 @@ function head() {
   document.getElementById("title").textContent = summary.title || "A run of nsframe";
   const {steps} = summary, course = steps ? ["Scheme " + summary.scheme, "dt = " + figure(1e3 * summary.dt) + " ms", steps + " steps",
     figure(summary.end_time) + " s"] : ["Static stages"];
-  const parts = [...course, summary.dofs + " DOFs", summary.elements + " elements", summary.fibers ? summary.fibers + " fibers" : ""];
+  const parts = [...course, summary.dofs + (summary.dofs === 1 ? " DOF" : " DOFs"), summary.elements + " elements", summary.fibers ? summary.fibers + " fibers" : ""];
   document.getElementById("subtitle").textContent = parts.filter(text => text).join(" · ");
   const warnings = [...summary.warnings];
   if (!summary.completed) warnings.unshift("This run did not complete: " + (summary.stop_reason || "stopped") + ".");
@@ -65,14 +65,14 @@ function view() {
   report.view = new View(run.view, colours, clock, poundings);
   if (run.view.note) report.view.host.append(element("p", {class: "note", text: run.view.note}));
   const cells = run.poundings.map(p => ({jump: p.t, cells: [p.t.toFixed(3), p.pair, figure(p.approach_velocity), figure(p.impulse),
-    figure(1e3 * p.duration, 2), figure(p.effective_restitution, 2), String(p.impacts)]}));
+    figure(1e3 * p.duration, 2), Math.abs(p.effective_restitution) < 1e-6 ? "0" : figure(p.effective_restitution, 2), String(p.impacts)]}));
   const left = report.view.host;
   if (!summary.pairs.length) { section("shape", "Deformed shape", left); return; }
   const hidden = summary.poundings_total - run.poundings.length;
   const note = "Impacts of one pair closer than 20 ms, or in sustained contact, are one pounding. "
     + (hidden > 0 ? `The strongest ${run.poundings.length} of ${summary.poundings_total} are listed. ` : "")
     + (cells.length ? "Choose one to see its moment." : "");
-  const columns = [{label: "t, s"}, {label: "pair", text: true}, {label: "approach, m/s"}, {label: "impulse, N s"}, {label: "lasts, ms"},
+  const columns = [{label: "t, s"}, {label: "pair", text: true}, {label: "approach, m/s"}, {label: "impulse, N\u00a0s"}, {label: "lasts, ms"},
     {label: "e, effective"}, {label: "impacts"}];
   const card = element("div", {class: "card"}, element("h3", {text: "Poundings"}),
     cells.length ? table(columns, cells) : element("p", {text: "None."}), element("p", {class: "note", text: note}));
@@ -151,11 +151,14 @@ if (summary.steps) numerics();
 scene();
 document.getElementById("footer").textContent = "Made by nsframe " + summary.version
   + ". Units: SI, unless a label says another. Long histories are thinned; every peak is kept.";
-window.addEventListener("load", () => requestAnimationFrame(() => requestAnimationFrame(() => {
+// For tests: what was drawn, and whether anything is wider than the window.
+window.addEventListener("load", () => {
+  for (const chart of report.charts) chart.draw();
+  if (report.view) report.view.draw();
   const body = document.body.dataset;
   body.errors = report.errors.join("; ");
   body.charts = report.charts.filter(chart => chart.box).length + "/" + report.charts.length;
   body.overflow = document.documentElement.scrollWidth > window.innerWidth ? document.documentElement.scrollWidth + " px" : "";
   body.view = report.view ? String(Boolean(report.view.drawn)) : "none";
   body.ready = "1";
-})));
+});

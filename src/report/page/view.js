@@ -29,7 +29,14 @@ class View {
   }
 
   extent() {
-    const points = this.data.position, low = [...points[0]], high = [...points[0]];
+    const points = [...this.data.position], low = [...points[0]], high = [...points[0]], n = 6 * this.data.recorded.length;
+    for (const node of this.data.points) {  // nothing but a node: where it goes counts
+      const k = this.slot.get(node);
+      for (let i = 0; k !== undefined && i < this.data.times.length; ++i) {
+        const motion = d => this.data.unit[0] * this.data.scale * this.frames[i * n + 6 * k + d];
+        points.push(this.data.position[node].map((x, d) => x + motion(d)));
+      }
+    }
     for (const p of points) for (let k = 0; k < 3; ++k) { low[k] = Math.min(low[k], p[k]); high[k] = Math.max(high[k], p[k]); }
     this.low = low;
     this.high = high;
@@ -51,6 +58,7 @@ class View {
   // [displacement, rotation] of a node, scaled; null where it has no history.
   moved(motion, node, scale) {
     const k = this.slot.get(node);
+    if (!this.frames) return [[0, 0, 0], [0, 0, 0]];
     if (k === undefined) return null;
     const part = first => [0, 1, 2].map(d => scale * motion[6 * k + first + d]);
     return [part(0), part(3)];
@@ -101,7 +109,7 @@ class View {
     const {context: c, width, height} = ready;
     this.aim(width, height);
     const motion = this.at(this.time), pieces = this.data.members.length > 1500 ? 3 : 8, shapes = [];
-    if (this.ghost) this.collect(shapes, motion, 0, 1, true);
+    if (this.ghost && this.frames) this.collect(shapes, motion, 0, 1, true);
     this.collect(shapes, motion, this.scale, pieces, false);
     shapes.sort((a, b) => a.depth === b.depth ? 0 : a.depth - b.depth);
     this.ground(c);
@@ -242,8 +250,8 @@ class View {
     ghost.checked = true;
     const look = (text, azimuth, elevation) => element("button", {type: "button", class: "plain", text,
       onclick: () => { Object.assign(this.camera, {azimuth, elevation, zoom: 1}); this.draw(); }});
-    controls.append(element("label", {}, ghost, "Undeformed"), look("3D", -1.12, 0.3), look("Front", -Math.PI / 2, 0),
-      look("Side", 0, 0), look("Top", -Math.PI / 2, Math.PI / 2));
+    if (this.frames) controls.append(element("label", {}, ghost, "Undeformed"));
+    controls.append(look("3D", -1.12, 0.3), look("Front", -Math.PI / 2, 0), look("Side", 0, 0), look("Top", -Math.PI / 2, Math.PI / 2));
     const strongest = this.poundings.reduce((best, p) => p.impulse > best.impulse ? p : best, {t: 0, impulse: 0});
     this.show(strongest.t, true);
     return controls;
