@@ -103,6 +103,7 @@ class Nsframe:
         with tempfile.TemporaryDirectory() as folder:
             values = dict(settings)
             values["output.frames"] = 0
+            values["output.floor_spectra"] = "none"
             values["output.history"] = '["nodes"]' if nodes else "[]"
             if nodes:
                 values["output.nodes"] = "[%s]" % ", ".join('"%s"' % node for node in nodes)
@@ -165,13 +166,18 @@ def machine():
 
 def write(folder, name, text, data):
     """Writes NAME.md and NAME.json, and prints the text."""
+    write_files(folder, name, text, data)
+    print(text)
+
+
+def write_files(folder, name, text, data):
+    """Writes NAME.md and NAME.json."""
     os.makedirs(folder, exist_ok=True)
     with open(os.path.join(folder, name + ".md"), "w", encoding="utf-8") as file:
         file.write(text)
     with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
         json.dump(data, file, indent=1)
         file.write("\n")
-    print(text)
 
 
 def arguments(parser):

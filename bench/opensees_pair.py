@@ -172,7 +172,7 @@ def build(a, record):
     ops.system(a.system)
     ops.test("NormDispIncr", a.tolerance, 50)
     ops.algorithm(a.algorithm)
-    ops.integrator("Newmark", 0.5, 0.25)
+    ops.integrator(a.integrator[0], *[float(word) for word in a.integrator[1:]])
     ops.analysis("Transient")
     return frequencies
 
@@ -222,6 +222,7 @@ def main():
     parser.add_argument("--damping", default="modalDampingQ")
     parser.add_argument("--system", default="BandSPD")
     parser.add_argument("--algorithm", default="KrylovNewton")
+    parser.add_argument("--integrator", nargs="+", default=["Newmark", "0.5", "0.25"])
     parser.add_argument("--tolerance", type=float, default=1e-8)
     a = parser.parse_args()
     # OpenSees prints every impact to the error stream

@@ -33,7 +33,7 @@ def make(nsframe, columns, step):
         file.write("# %s\n" % json.dumps(head))
         file.write("# time [s], displacement in x [m] of %s\n" % ", ".join(ROOF_NODES))
         for i, t in enumerate(time):
-            file.write(",".join(["%.6g" % t] + ["%.8g" % corner[i] for corner in roof]) + "\n")
+            file.write(",".join(["%.6g" % t] + ["%.12g" % corner[i] for corner in roof]) + "\n")
 
 
 def read(columns):

@@ -3,8 +3,8 @@
 
     base <- materials <- elements <- models <- assembly <- integrators <- app
     contact: base, models/contacts.hpp, models/contact_law.hpp     modal: base     spectra: base     motion: base, spectra
-    integrators: also contact
-    scene: base .. models, motion     output: base .. models, spectra     study: base .. models     app, tests, bench: anything
+    integrators: also contact     scene: base .. models, motion     output: base .. models, spectra     study: base .. models
+    report: base, output     app, tests, bench: anything
 
 A test or a bench may also name a helper in its own folder without a path.
 
@@ -27,6 +27,7 @@ ALLOWED["scene"] = set(CHAIN[:4]) | {"motion", "scene"}
 ALLOWED["spectra"] = {"base", "spectra"}
 ALLOWED["study"] = set(CHAIN[:4]) | {"study"}
 ALLOWED["output"] = set(CHAIN[:4]) | {"output", "spectra"}
+ALLOWED["report"] = {"base", "output", "report"}
 ANYTHING = {"app", "tests", "bench"}
 AT_ROOT = {"materials", "elements", "models", "tests", "bench"}  # the others are below src/
 FOLDERS = set(ALLOWED) | ANYTHING

@@ -6,6 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/motion.hpp"
+#include "app/report.hpp"
 #include "app/section.hpp"
 #include "app/study.hpp"
 #include "base/errors.hpp"
@@ -65,6 +66,15 @@ void add_study_command(CLI::App& program, StudyArguments& a, std::function<int()
   c->callback([&] { command = [&] { return study(a); }; });
 }
 
+void add_report_command(CLI::App& program, ReportArguments& a, std::function<int()>& command) {
+  CLI::App* c = program.add_subcommand("report", "the results of a run as one HTML page that works offline");
+  c->add_option("folder", a.folder, "folder that nsframe run has written")->required();
+  c->add_option("-o,--output", a.output, "file (default: report.html in the folder)");
+  c->footer("Histories are drawn as far as the run kept them: history = [\"nodes\", \"contacts\", \"energy\", \"ground\"] and floor_spectra\n"
+            "in [output] of the scene.");
+  c->callback([&] { command = [&] { return report(a); }; });
+}
+
 int guarded(const std::function<int()>& command) {
   try {
     return command();
@@ -118,6 +128,8 @@ int program(int count, char** values) {
   add_study_command(program, study_arguments, command);
   add_motion_command(program, command);
   add_spectrum_command(program, command);
+  ReportArguments report_arguments;
+  add_report_command(program, report_arguments, command);
   program.add_subcommand("reference", "print the scene reference (docs/scene-reference.md)")->callback([&] {
     command = reference;
   });

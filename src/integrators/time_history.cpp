@@ -230,8 +230,9 @@ bool TimeHistory::stop_now() {
 
 void TimeHistory::save(const State& committed) {
   if (!control_.keep_snapshot) return;
+  const Timer timer;
   Snapshot snapshot;
-  observe([&](Observer& observer) { observer.save(snapshot); });
+  for (Observer* observer : observers_) observer->save(snapshot);
   snapshot.put("model.fingerprint", fingerprint(system_.model));
   nsframe::save(committed, snapshot);
   scheme_.save(snapshot);
@@ -246,6 +247,7 @@ void TimeHistory::save(const State& committed) {
   nsframe::save("time_history.impacts", result_.impacts, snapshot);
   nsframe::save("time_history.ladder", result_.ladder, snapshot);
   control_.keep_snapshot(snapshot);
+  result_.observer_seconds += timer.seconds();
   last_save_ = clock_.seconds();
 }
 

@@ -1,7 +1,4 @@
 // Largest story drifts over a time history: relative displacement of two floors over the height between them.
-//
-// Floors of a connected structure are the levels of its slabs (centre node, or the mean of the corners); without slabs,
-// the levels of nodes that carry horizontal mass (their mean). The base is the lowest level of its nodes.
 #pragma once
 
 #include <string>
@@ -23,12 +20,6 @@ class DriftTracker : public Observer {
   const std::vector<StoryDrift>& drifts() const { return drifts_; }
 
  private:
-  struct Floor {
-    double level = 0;  // [m]
-    std::vector<int> nodes;
-  };
-
-  static std::vector<Floor> floors_of(const Model& model, int structure);
   void raise(const State& state);
   double mean(int first_row, int nodes, const VectorX& q) const;
 

@@ -216,17 +216,23 @@ void Hdf5File::write_texts(const std::string& name, const std::vector<std::strin
 }
 
 void Hdf5File::write_numbers(const std::string& name, const std::vector<double>& values, std::vector<hsize_t> shape) {
+  if (shape.empty()) shape = {values.size()};
+  write_array(name, H5T_NATIVE_DOUBLE, values.empty() ? nullptr : values.data(), std::move(shape));
+}
+
+void Hdf5File::write_numbers(const std::string& name, const std::vector<int>& values, std::vector<hsize_t> shape) {
+  if (shape.empty()) shape = {values.size()};
+  write_array(name, H5T_NATIVE_INT, values.empty() ? nullptr : values.data(), std::move(shape));
+}
+
+void Hdf5File::write_array(const std::string& name, hid_t type, const void* values, std::vector<hsize_t> shape) {
   remove(name);
   const QuietHdf5 quiet;
-  if (shape.empty()) shape = {values.size()};
   const Hdf5Id space(check(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), name), H5Sclose);
   const Hdf5Id properties = data_set_properties();
   const Hdf5Id data(
-      check(H5Dcreate2(file_, in_folder(name).c_str(), H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, properties, H5P_DEFAULT), name),
-      H5Dclose);
-  if (!values.empty()) {
-    check(H5Dwrite(data, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
-  }
+      check(H5Dcreate2(file_, in_folder(name).c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT), name), H5Dclose);
+  if (values) check(H5Dwrite(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
 }
 
 void Hdf5File::set_attribute(const std::string& object, const std::string& name, const std::string& text) {

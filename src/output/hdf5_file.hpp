@@ -75,6 +75,7 @@ class Hdf5File {
   void write_texts(const std::string& name, const std::vector<std::string>& texts);
   // `shape`: of the data set, row by row; by default one-dimensional
   void write_numbers(const std::string& name, const std::vector<double>& values, std::vector<hsize_t> shape = {});
+  void write_numbers(const std::string& name, const std::vector<int>& values, std::vector<hsize_t> shape = {});
   // Attributes of an existing object.
   void set_attribute(const std::string& object, const std::string& name, const std::string& text);
   void set_attribute(const std::string& object, const std::string& name, const std::vector<std::string>& texts);
@@ -84,6 +85,7 @@ class Hdf5File {
   hid_t check(hid_t result, const std::string& doing) const;
 
  private:
+  void write_array(const std::string& name, hid_t type, const void* values, std::vector<hsize_t> shape);
   void remove_attribute(const std::string& object, const std::string& name);
   void reserve_space() const;
   void cut_off() const;

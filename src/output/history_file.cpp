@@ -13,6 +13,7 @@
 #include "output/files.hpp"
 #include "output/hdf5_file.hpp"
 #include "output/history_parts.hpp"
+#include "output/model_tables.hpp"
 #include "output/poundings.hpp"
 #include "output/sample_clock.hpp"
 
@@ -68,7 +69,7 @@ class HistoryFile::Writer : public StageObserver {
   bool asked(const char* name) const {
     return std::find(options_.history.begin(), options_.history.end(), name) != options_.history.end();
   }
-  void open_file(Hdf5File::Mode mode);
+  void open_file(const Model& model, Hdf5File::Mode mode);
   void open(const Model& model, const State& state, Hdf5File::Mode mode);
   void publish();
   void add_row(const Sample& sample);
@@ -103,7 +104,7 @@ HistoryFile::Writer::~Writer() {
   }
 }
 
-void HistoryFile::Writer::open_file(Hdf5File::Mode mode) {
+void HistoryFile::Writer::open_file(const Model& model, Hdf5File::Mode mode) {
   if (file_) return;
   make_folder(path_.parent_path());
   file_.emplace(path_, mode);
@@ -111,6 +112,7 @@ void HistoryFile::Writer::open_file(Hdf5File::Mode mode) {
   file_->set_attribute("/", "version", NSFRAME_VERSION);
   file_->set_attribute("/", "finished", 0.0);
   file_->write_text("/scene", scene_);
+  write_model_tables(*file_, model);
   if (mode == Hdf5File::Mode::create) file_->make_group("/static");
 }
 
@@ -122,7 +124,7 @@ void HistoryFile::Writer::publish() {
 void HistoryFile::Writer::start(const Model& model, const StaticStage& stage, const State& state) {
   constexpr hsize_t block = 64;
   model_ = &model;
-  open_file(Hdf5File::Mode::create);
+  open_file(model, Hdf5File::Mode::create);
   const std::string group = "/static/" + stage.name;
   file_->make_group(group);
   file_->set_attribute(group, "control", stage.options.control);
@@ -173,7 +175,7 @@ void HistoryFile::Writer::close() {
 // The file with all its data sets, new or as they are.
 void HistoryFile::Writer::open(const Model& model, const State& state, Hdf5File::Mode mode) {
   model_ = &model;
-  open_file(mode);
+  open_file(model, mode);
   if (asked("nodes")) parts_.push_back(node_history(model, options_.nodes));
   if (asked("elements")) parts_.push_back(member_history(model));
   if (asked("sections")) parts_.push_back(section_history(model, state));

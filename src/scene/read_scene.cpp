@@ -90,12 +90,19 @@ void check_output_nodes(const Scene& scene, Diagnostics& diagnostics) {
   check(nodes, "output.floor_spectra");
 }
 
+// So that --set output.floor_spectra=none can switch them off.
+void drop_floor_spectra(toml::table& root) {
+  toml::table* const output = root["output"].as_table();
+  if (output && (*output)["floor_spectra"].value<std::string_view>() == "none") output->erase("floor_spectra");
+}
+
 }  // namespace
 
 Scene parse_scene(std::string_view text, const std::string& name, const std::filesystem::path& directory,
                   const std::vector<std::string>& overrides, Diagnostics& diagnostics) {
   toml::table root = parse_toml(text, name, diagnostics);
   apply_overrides(root, overrides, diagnostics);
+  drop_floor_spectra(root);
   Scene scene;
   scene.directory = directory;
   Reader reader(diagnostics);

@@ -218,7 +218,7 @@ void visit(Archive& ar, OutputOptions& o) {
   ar(Field{"fibers",
            "`structure.element`, or `structure.element:2` for its second integration point, whose fibers to keep; empty: all"},
      o.fibers);
-  ar(Field{"floor_spectra", "response spectra of the floors' absolute motion, as `floor_spectra = \"floors\"`; without: none"},
+  ar(Field{"floor_spectra", "response spectra of the floors' absolute motion, as `floor_spectra = \"floors\"`; without, or `\"none\"`: none"},
      o.floor_spectra);
   ar(Field{"amplification", "of the displacements stored in the frames", {}, range::non_negative}, o.amplification);
   ar(Field{"checkpoint", "wall-clock time between checkpoints for `--resume`; 0: only when the run ends",

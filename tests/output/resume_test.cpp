@@ -4,8 +4,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstring>
+#include <thread>
 
 #include "base/errors.hpp"
 #include "integrators/simulation.hpp"
@@ -147,4 +149,20 @@ TEST_CASE("a checkpoint with any byte of its numbers changed is damaged") {
   CHECK_THROWS_AS(read_checkpoint(path), IoError);
   std::ofstream(path, std::ios::binary) << "not HDF5";
   CHECK_THROWS_AS(read_checkpoint(path), IoError);
+}
+
+TEST_CASE("what writing checkpoints takes is counted as output, not as steps") {
+  const Scene scene = example_scene("bouncing_ball", {"analysis.scheme=exact", "analysis.dt=5 ms", "analysis.duration=0.05 s"});
+  constexpr double writing = 0.25;  // [s] a checkpoint, thousands of times what the ten steps take
+  int written = 0;
+  RunControl control;
+  control.snapshot_interval = 1e-9;
+  control.keep_snapshot = [&](const Snapshot&) {
+    if (++written <= 2) std::this_thread::sleep_for(std::chrono::duration<double>(writing));
+  };
+  const TemporaryFolder folder;
+  const Summary summary = run(scene, folder.path(), control).summary;
+  REQUIRE(written >= 2);
+  CHECK(summary.timing.step_loop < writing);
+  CHECK(summary.timing.output >= 2 * writing);
 }

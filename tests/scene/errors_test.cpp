@@ -294,3 +294,11 @@ TEST_CASE("all errors of a scene are reported at once, in the order of their pla
                        "s.toml:7:1: error: a contact needs two sides: between = [first, second], or more in a row",
                        InputError);
 }
+
+TEST_CASE("floor spectra of a scene can be switched off from the command line") {
+  constexpr const char* text = "[output]\nfloor_spectra = \"floors\"\n";
+  Diagnostics diagnostics;
+  CHECK(parse_scene(text, "s.toml", ".", {}, diagnostics).output.floor_spectra);
+  CHECK_FALSE(parse_scene(text, "s.toml", ".", {"output.floor_spectra=none"}, diagnostics).output.floor_spectra);
+  CHECK(diagnostics.empty());
+}
