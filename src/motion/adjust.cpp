@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "base/types.hpp"
 #include "motion/equations.hpp"
 #include "motion/history.hpp"
 
 namespace nsframe {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // y = (b0 x + b1 x' + b2 x'') - (a1 y' + a2 y''), primes: one and two samples before
 struct Section {

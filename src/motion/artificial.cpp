@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "base/errors.hpp"
+#include "base/types.hpp"
 #include "motion/adjust.hpp"
 #include "motion/wavelets.hpp"
 #include "spectra/oscillators.hpp"
@@ -17,7 +17,6 @@ namespace nsframe {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr int sine_iterations = 12, periods_checked = 300;
 constexpr double highest_frequency = 50;  // [Hz] of the sines
 constexpr double spacing = 0.5;  // of the periods that wavelets are put at, in logarithm, over the damping ratio

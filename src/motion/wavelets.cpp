@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
+#include "base/types.hpp"
 #include "motion/equations.hpp"
 #include "spectra/oscillators.hpp"
 #include "spectra/spectrum.hpp"
@@ -13,7 +13,6 @@ namespace nsframe {
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 constexpr double regularisation = 0.02;  // of the wavelets' amplitudes, relative to the squared response of one
 constexpr double next_largest = 0.85;    // extremes above this share of the largest are watched
 constexpr std::size_t most_watched = 3;  // of an oscillator

@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "spectra/oscillators.hpp"
+#include "base/types.hpp"
 #include "spectra/spectrum.hpp"
 
 namespace nsframe {
@@ -13,7 +13,6 @@ namespace nsframe {
 namespace {
 
 constexpr std::size_t directions = 180;
-constexpr double pi = std::numbers::pi;
 constexpr double fine =
     0.05;  // w times the distance of the places looked at: a peak between is missed by (fine / 2)^2 / 2
 

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "base/types.hpp"
 #include "spectra/oscillators.hpp"
 #include "spectra/spectrum_kernel.hpp"
 
 namespace nsframe {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
 
 // Largest |u| of a free vibration that begins with u and u' = v (theory.md, 310).
 double free_peak(double u, double v, double period, double xi) {
