@@ -181,7 +181,7 @@ void visit(Archive& ar, AnalysisOptions& a) {
            "`poisson` by impulses, which never does. The same for one pair alone"},
      a.impact_law);
   ar(Field{"contact_solver", "of the contact problem"}, a.contact_solver);
-  ar(Field{"projection", "moreau-jean: move penetrations back to gap 0 after each step, velocities as they are; not of penalty laws"},
+  ar(Field{"projection", "moreau-jean: move penetrations of pairs with impulses back to gap 0 after each step, velocities as they are"},
      a.projection);
   ar(Field{"contact_tolerance", "complementarity error relative to the approach velocity", {}, range::positive},
      a.contact_tolerance);

@@ -69,6 +69,21 @@ TEST_CASE("impacts of one pair closer than 20 ms are one pounding, of another pa
   CHECK(poundings[2].effective_restitution == doctest::Approx(0.6));
 }
 
+TEST_CASE("a contact with a law of force is a pounding from its begin to its end, in the order of begins") {
+  Impact long_contact = impact_at(1.3, 0, 0.5, 10, 0.3), within = impact_at(1.2, 1, 0.4, 7, 0.2), next = impact_at(1.33, 0, 0.2, 3, 0.1);
+  long_contact.duration = 0.2;
+  within.duration = 0.05;
+  next.duration = 0.015;  // begins 15 ms after the end
+  const auto poundings = merge_impacts({within, long_contact, next});
+  REQUIRE(poundings.size() == 2);
+  CHECK(poundings[0].pair == 0);
+  CHECK(poundings[0].time == doctest::Approx(1.1));
+  CHECK(poundings[0].duration == doctest::Approx(0.23));
+  CHECK(poundings[0].impulse == 13);
+  CHECK(poundings[0].effective_restitution == doctest::Approx(0.2));
+  CHECK(poundings[1].time == doctest::Approx(1.15));
+}
+
 TEST_CASE("a pounding that starts from resting contact has no restitution") {
   const auto poundings = merge_impacts({impact_at(0.5, 0, 0, 3, 0)});
   REQUIRE(poundings.size() == 1);

@@ -130,3 +130,22 @@ TEST_CASE("energy that restitution creates is told with the law that creates non
         "Newton's law of restitution created 1.5 J where several pairs collided at once, 1.2 J of it at t = 2.25 s: impact_law = "
         "\"poisson\" creates none");
 }
+
+TEST_CASE("contacts of penalty laws that steps do not resolve are told, and deep ones ask for a stiffer law") {
+  Run run;
+  run.model.contacts.pairs[0].law.name = "hertz";
+  for (const double duration : {0.012, 0.004, 0.0025}) run.summary.impacts.push_back({1, 0, 0.4, 100, -0.4, 0.24, duration});
+  REQUIRE(run.warnings().size() == 1);
+  CHECK(run.warnings()[0] ==
+        "2 of 3 contacts with penalty laws lasted less than 10 steps, the shortest 2.5 (left.1|right.1, hertz): steps, and not the law, rule how "
+        "they part; take a smaller dt, or a softer law");
+  run.summary.dt = 1e-4;
+  CHECK(run.warnings().empty());
+  run.summary.max_penetration = 0.005;
+  REQUIRE(run.warnings().size() == 1);
+  CHECK(run.warnings()[0].find("a stiffer law of contact lessens it") != std::string::npos);
+  run.model.contacts.pairs[0].law.name = "newton";
+  run.summary.dt = 1e-3;
+  REQUIRE(run.warnings().size() == 1);
+  CHECK(run.warnings()[0].find("a smaller dt lessens it") != std::string::npos);
+}
