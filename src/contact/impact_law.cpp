@@ -32,7 +32,8 @@ double created_energy(const MatrixX& delassus, const VectorX& impulse, const Vec
   return created;
 }
 
-PoissonImpact poisson_impact(const MatrixX& delassus, const VectorX& before, const VectorX& restitution, const ComplementaritySolver& solve) {
+PoissonImpact poisson_impact(const MatrixX& delassus, const VectorX& before, const VectorX& restitution,
+                             const ComplementaritySolver& solve) {
   PoissonImpact impact;
   impact.compression = solve({delassus, before});
   const VectorX least = impact.compression + restitution.cwiseProduct(impact.compression);

@@ -22,6 +22,7 @@ using ComplementaritySolver = std::function<VectorX(const ContactProblem&)>;
 
 // Poisson's law as two problems (Glocker and Pfeiffer 1995): compression until no pair closes, 0 <= P_c _|_ u- + W P_c >= 0; expansion
 // with at least the part e of each impulse, 0 <= P_e - e P_c _|_ u- + W (P_c + P_e) >= 0. One pair alone: Newton's law.
-PoissonImpact poisson_impact(const MatrixX& delassus, const VectorX& before, const VectorX& restitution, const ComplementaritySolver& solve);
+PoissonImpact poisson_impact(const MatrixX& delassus, const VectorX& before, const VectorX& restitution,
+                             const ComplementaritySolver& solve);
 
 }  // namespace nsframe

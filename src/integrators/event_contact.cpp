@@ -140,7 +140,9 @@ bool EventFlow::collide_once(const System& system, double time, double remaining
   const VectorX impulse =
       options_.impact_law == ImpactLaw::newton
           ? solve_forces(system, pairs, rhs + restitution.cwiseProduct(rhs), result)
-          : poisson_impact(W, rhs, restitution, [&](const ContactProblem& p) { return solve_forces(system, pairs, p.rhs, result); }).impulse;
+          : poisson_impact(W, rhs, restitution, [&](const ContactProblem& one) {
+              return solve_forces(system, pairs, one.rhs, result);
+            }).impulse;
   VectorX change = VectorX::Zero(modes_.dofs);
   const VectorX before = rate_;
   for (std::size_t k = 0; k < pairs.size(); ++k) {

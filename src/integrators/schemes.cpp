@@ -41,7 +41,8 @@ void check_contact_laws(const AnalysisOptions& options, const Contacts& contacts
   diagnostics.throw_if_any();
   if (!contacts.frictional()) return;
   if (options.scheme != "moreau-jean") {
-    diagnostics.error(options.scheme_at, fmt::format("scheme {} has no friction, which contact asks for: scheme = \"moreau-jean\" has it", options.scheme));
+    diagnostics.error(options.scheme_at, fmt::format("scheme {} has no friction, which contact asks for: scheme = \"moreau-jean\" has it",
+                                                     options.scheme));
   }
   if (options.impact_law == ImpactLaw::poisson) {
     diagnostics.error(options.scheme_at, "impact_law = \"poisson\" is for contact without friction; with friction it is \"newton\"");

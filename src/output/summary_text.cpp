@@ -223,8 +223,9 @@ void put_energy(Buffer& out, const Summary& summary) {
        tidy(e.initial), tidy(e.kinetic), tidy(e.strain), tidy(e.damping), tidy(e.contact + e.friction), tidy(e.numerical),
        e.balance_error());
   if (!summary.slips.empty()) {
-    const auto most_slip = std::max_element(summary.slips.begin(), summary.slips.end(), [](const Slip& a, const Slip& b) { return a.distance < b.distance; });
-    line(out, "  of which friction took {:.4g}; the longest slip, {:.4g} mm, is that of {}", e.friction, 1e3 * most_slip->distance,
+    const auto shorter = [](const Slip& a, const Slip& b) { return a.distance < b.distance; };
+    const auto most_slip = std::max_element(summary.slips.begin(), summary.slips.end(), shorter);
+    line(out, "  of what contact took, friction took {:.4g}; the longest slip, {:.4g} mm, is that of {}", e.friction, 1e3 * most_slip->distance,
          summary.pairs[static_cast<std::size_t>(most_slip->pair)]);
   }
   line(out, "  largest balance error of the run: {:.1e} of the largest energy", summary.worst_balance_error);

@@ -141,8 +141,8 @@ void of_created_energy(const Model&, const Summary& summary, Sentences& out) {
   const double scale = std::max({e.initial, e.kinetic, std::abs(e.input), std::abs(e.strain), std::abs(e.contact)});
   const CreatedEnergy& created = summary.created;
   if (!(created.sum > much_created * scale)) return;
-  out.push_back(fmt::format("Newton's law of restitution created {:.3g} J where several pairs collided at once, {:.3g} J of it at t = {:.4g} s: "
-                            "impact_law = \"poisson\" creates none",
+  out.push_back(fmt::format("Newton's law of restitution created {:.3g} J where several pairs collided at once, {:.3g} J of it at "
+                            "t = {:.4g} s: impact_law = \"poisson\" creates none",
                             created.sum, created.largest, created.largest_time));
 }
 
