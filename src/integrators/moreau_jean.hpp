@@ -37,7 +37,7 @@ class MoreauJean : public Scheme {
   // Changes the velocity as an algorithm commands, then solves the contact problem on the active pairs.
   void update_velocity(const System& system, const VectorX& change, State& trial, StepResult& result);
   // moreau_jean_contact.cpp: what restitution asks of the gap rates of the active pairs at the end of the step (274); the contact
-  // problem with friction (280), its impulses, and what both report.
+  // problem with friction (275), its impulses, and what both report.
   VectorX target_rates(const System& system, const MatrixX& delassus) const;
   ContactSolution solve_with_friction(const System& system, ContactProblem& problem, const State& trial);
   void add_friction(const Contacts& contacts, double factor, VectorX& momentum) const;

@@ -1,4 +1,4 @@
-// Restitution and friction of the theta scheme where several pairs collide at once (theory.md, 270-282).
+// Restitution and friction of the theta scheme where several pairs collide at once (theory.md, 270-279).
 #include "base/errors.hpp"
 #include "contact/friction.hpp"
 #include "contact/impact_law.hpp"
