@@ -21,6 +21,9 @@ OPENSEES_STEPS = {2: 400, 8: 200, 32: 100, 128: 40}
 QUICK_STEPS = 5
 RATIO = 0.01                  # of six modes of each building (in OpenSees: of the model)
 GAPS = (1e-6, 1.5e-6)         # [m], so that floors touch from the first steps on
+FAR = {"contact.gap": '["0.5 m", "0.5 m"]'}  # pairs that nothing reaches
+RUNS_OF = {"nsframe": moreau_jean(1.0), "nsframe, far": {**moreau_jean(1.0), **FAR}, "event-split": {"analysis.scheme": "event-split"},
+           "event-split, far": {"analysis.scheme": "event-split", **FAR}}
 # of the lower stories and of the last one, as examples/two_story
 STORY = {"left": dict(area=(1.61229e-4, 2.44428e-4), inertia=(588.573, 585.454)),
          "right": dict(area=(1.96086e-4, 4.34601e-4), inertia=(2971.41, 1503.19))}
@@ -41,14 +44,14 @@ def settings(stories):
     return values
 
 
-def nsframe_row(nsframe, columns, stories, quick):
+def nsframe_row(nsframe, columns, stories, quick, name, scheme):
     steps = QUICK_STEPS if quick else STEPS[columns][stories]
-    progress("%s, %d stories: nsframe" % (columns, stories))
+    progress("%s, %d stories: %s" % (columns, stories, name))
     times = []
     for _ in range(1 if quick else RUNS):
-        summary, usage, _, _ = run_nsframe(nsframe, columns, DT, steps * DT, {**moreau_jean(1.0), **settings(stories)})
+        summary, usage, _, _ = run_nsframe(nsframe, columns, DT, steps * DT, {**settings(stories), **scheme})
         times.append(step_microseconds(summary))
-    return dict(program="nsframe", stories=stories, dofs=summary["dofs"], steps=steps, step_us=min(times), step_us_all=times,
+    return dict(program=name, stories=stories, dofs=summary["dofs"], steps=steps, step_us=min(times), step_us_all=times,
                 setup_s=summary["timing"]["setup"], memory_mb=usage["memory_mb"], impacts=len(summary["impacts"]),
                 iterations=summary["newton_iterations"] / summary["steps"], factorizations=summary["factorizations"])
 
@@ -65,6 +68,8 @@ def opensees_row(opensees, columns, stories, quick):
 def text_of(columns, rows):
     own = {row["stories"]: row for row in rows if row["program"] == "nsframe"}
     other = {row["stories"]: row for row in rows if row["program"] == "OpenSees"}
+    far, split, split_far = ({row["stories"]: row["step_us"] for row in rows if row["program"] == name}
+                             for name in ("nsframe, far", "event-split", "event-split, far"))
     reference = own.get(8)
     lines = []
     for stories, row in own.items():
@@ -73,10 +78,11 @@ def text_of(columns, rows):
         relative = per_dof / (reference["step_us"] / reference["dofs"]) if reference else None
         lines.append(["%d" % stories, "%d" % row["dofs"], number(row["step_us"]), number(1e3 * per_dof), number(relative),
                       number(row["setup_s"]), number(row["memory_mb"]), "%d" % row["impacts"], number(row["iterations"]),
+                      number(far[stories]), number(split[stories]), number(split_far[stories]),
                       number(peer["step_us"] if peer else None), number(peer["step_us"] / row["step_us"] if peer else None),
                       number(peer["memory_mb"] if peer else None)])
-    head = ["stories", "DOFs", "µs a step", "ns a DOF", "to 8 stories", "setup, s", "memory, MB", "impacts", "iterations",
-            "OpenSees, µs", "OpenSees / it", "its memory, MB"]
+    head = ["stories", "DOFs", "µs a step", "ns a DOF", "to 8 stories", "setup, s", "memory, MB", "impacts", "iterations", "far, µs",
+            "event-split, µs", "far, µs", "OpenSees, µs", "OpenSees / it", "its memory, MB"]
     return "## %s\n\n%s" % (TITLES[columns], table(head, lines))
 
 
@@ -94,7 +100,7 @@ def main():
     for columns in options.columns:
         rows = []
         for stories in options.stories[:1] if options.quick else options.stories:
-            rows.append(nsframe_row(nsframe, columns, stories, options.quick))
+            rows += [nsframe_row(nsframe, columns, stories, options.quick, name, scheme) for name, scheme in RUNS_OF.items()]
             if opensees:
                 rows.append(opensees_row(opensees, columns, stories, options.quick))
         data["cases"][columns] = rows

@@ -106,12 +106,13 @@ std::vector<int> EventSplit::accumulating(const System& system, const std::vecto
 bool EventSplit::collide_once(const System& system, double time, double remaining, bool last, StepResult& result) {
   std::vector<int> pairs;
   bool closing = false;
+  const double still = rate_tolerance();
   for (int c = 0; c < system.contacts().size(); ++c) {
     if (impact_.compliant(c)) continue;
     const bool closed = is_closed(c);
-    if (!closed && (!touching_[static_cast<std::size_t>(c)] || (rate_[c] > rate_tolerance() && !last))) continue;
+    if (!closed && (!touching_[static_cast<std::size_t>(c)] || (rate_[c] > still && !last))) continue;
     pairs.push_back(c);
-    closing = closing || rate_[c] < -rate_tolerance();
+    closing = closing || rate_[c] < -still;
   }
   if (!closing) return false;
   const auto count = static_cast<Eigen::Index>(pairs.size());
