@@ -10,7 +10,7 @@ namespace nsframe {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double machine_epsilon = std::numeric_limits<double>::machine_epsilon();
 constexpr double jump_slope = 1e10;  // of a jump that is not used up, over 1 / compliance
 constexpr int most_bisections = 200;
 
@@ -46,7 +46,7 @@ ForcePair::Solution ForcePair::solve(double free, double compliance) const {
     (left < 0 ? low : high) = w;
     double next = w - left / (1 + compliance * slope(w));
     if (!(next > low && next < high) || i > 20) next = 0.5 * (low + high);
-    const double least = 2 * epsilon * std::max(std::abs(low), std::abs(high));
+    const double least = 2 * machine_epsilon * std::max(std::abs(low), std::abs(high));
     if (std::abs(next - w) <= least || high - low <= least) break;
     w = next;
   }
@@ -116,7 +116,7 @@ ForceSolution solve_forces(const ForceProblem& problem, const ContactOptions& op
   }
   double change = answers.find(p);
   for (solution.iterations = 0; solution.iterations < options.max_iterations; ++solution.iterations) {
-    const double rounding = 16 * static_cast<double>(n) * epsilon * (problem.delassus.cwiseAbs() * p.cwiseAbs()).maxCoeff();
+    const double rounding = 16 * static_cast<double>(n) * machine_epsilon * (problem.delassus.cwiseAbs() * p.cwiseAbs()).maxCoeff();
     solution.error = change / scale;
     solution.converged = change <= options.tolerance * scale + rounding;
     if (solution.converged) break;

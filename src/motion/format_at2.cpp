@@ -10,12 +10,12 @@ namespace {
 
 constexpr int max_header_lines = 20;
 
-struct Header {
+struct At2Header {
   std::size_t count = 0;
   double dt = 0;  // [s]
 };
 
-Header parse_header(const std::string& text, int line) {
+At2Header parse_header(const std::string& text, int line) {
   const std::string upper_text = upper(text);
   const auto behind = [&](std::string_view key) {
     const auto value = value_behind(upper_text, key);
@@ -42,9 +42,9 @@ void check_header_text(const std::string& line, int number) {
       throw RecordFault{number, 1, "an AT2 record is in units of g; give a plain text file with its unit instead"};
 }
 
-RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
+RecordFormat::Reading read_at2(LineReader& lines, const ReadOptions& options) {
   if (options.dt) throw RecordFault{0, 0, "an AT2 record says its own step, dt must not be given"};
-  std::optional<Header> header;
+  std::optional<At2Header> header;
   RecordFormat::Reading out{{}, AccelerationUnit::g};
   while (!header && lines.number() < max_header_lines && lines.next()) {
     if (upper(lines.line()).find("NPTS") != std::string::npos) {
@@ -77,6 +77,6 @@ RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
 const RecordFormat peer_at2{
     "at2", "PEER AT2",
     [](const FileBeginning& file) { return file.extension == ".AT2" || file.text.find("NPTS") != std::string::npos; },
-    read};
+    read_at2};
 
 }  // namespace nsframe

@@ -53,7 +53,7 @@ double step_of(const std::vector<double>& real, int line) {
   return dt;
 }
 
-RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
+RecordFormat::Reading read_cosmos(LineReader& lines, const ReadOptions& options) {
   if (options.dt) throw RecordFault{0, 0, "a COSMOS record says its own step, dt must not be given"};
   RecordFormat::Reading out;
   ChannelChoice choice(options);
@@ -92,6 +92,6 @@ const RecordFormat cosmos_v2{"cosmos", "COSMOS",
                                return file.text.find("-HEADER VALUES FOLLOW ON") != std::string::npos ||
                                       file.text.find("(FORMAT V01.") != std::string::npos;
                              },
-                             read};
+                             read_cosmos};
 
 }  // namespace nsframe

@@ -21,7 +21,7 @@ std::optional<AccelerationUnit> unit_of(std::string_view text) {
   return std::nullopt;
 }
 
-RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
+RecordFormat::Reading read_csmip(LineReader& lines, const ReadOptions& options) {
   if (options.dt) throw RecordFault{0, 0, "a CSMIP record says its own step, dt must not be given"};
   RecordFormat::Reading out;
   ChannelChoice choice(options);
@@ -60,6 +60,6 @@ const RecordFormat csmip_v2{"csmip", "CSMIP volume 2",
                               return file.extension == ".V2" || (file.text.find("POINTS OF ACC") != std::string::npos &&
                                                                  file.text.find(spaced) != std::string::npos);
                             },
-                            read};
+                            read_csmip};
 
 }  // namespace nsframe

@@ -8,7 +8,7 @@ namespace nsframe {
 
 namespace {
 
-struct Header {
+struct EsmHeader {
   std::optional<double> dt;  // [s]
   std::optional<std::size_t> count;
   std::string event, station, stream;
@@ -22,7 +22,7 @@ double number_of(std::string_view value, std::string_view key, int line) {
 }
 
 // True for a line of the header.
-bool read_key(std::string_view line, int number, Header& header) {
+bool read_key(std::string_view line, int number, EsmHeader& header) {
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos) return false;
   const std::string_view key = trimmed(line.substr(0, colon)), value = trimmed(line.substr(colon + 1));
@@ -43,9 +43,9 @@ bool read_key(std::string_view line, int number, Header& header) {
   return true;
 }
 
-RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
+RecordFormat::Reading read_esm(LineReader& lines, const ReadOptions& options) {
   if (options.dt) throw RecordFault{0, 0, "an ESM record says its own step, dt must not be given"};
-  Header header;
+  EsmHeader header;
   while (lines.next()) {
     if (read_key(lines.line(), lines.number(), header)) continue;
     lines.hold();
@@ -71,6 +71,6 @@ const RecordFormat esm_dyna{"esm", "ESM",
                               return file.text.starts_with("EVENT_NAME:") ||
                                      file.text.find("SAMPLING_INTERVAL_S:") != std::string::npos;
                             },
-                            read};
+                            read_esm};
 
 }  // namespace nsframe

@@ -16,7 +16,7 @@ namespace {
 constexpr int header_lines = 17;
 constexpr std::size_t key_width = 18;
 
-struct Header {
+struct KnetHeader {
   double frequency = 0, duration = 0, scale = 0, peak = 0;  // [Hz], [s], [gal], [gal]
   std::string station, direction;
 };
@@ -31,8 +31,8 @@ double scale_factor(std::string_view text, int line) {
   return *numerator / *denominator;
 }
 
-Header read_header(LineReader& lines) {
-  Header out;
+KnetHeader read_header(LineReader& lines) {
+  KnetHeader out;
   while (lines.number() < header_lines) {
     if (!lines.next())
       throw RecordFault{lines.place(), 1, fmt::format("ends within the {} lines of the header", header_lines)};
@@ -59,9 +59,9 @@ Header read_header(LineReader& lines) {
   return out;
 }
 
-RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
+RecordFormat::Reading read_knet(LineReader& lines, const ReadOptions& options) {
   if (options.dt) throw RecordFault{0, 0, "a K-NET record says its own step, dt must not be given"};
-  const Header header = read_header(lines);
+  const KnetHeader header = read_header(lines);
   RecordFormat::Reading out{{}, AccelerationUnit::centimetres};
   Record& record = out.record;
   record.dt = 1 / header.frequency;
@@ -89,6 +89,6 @@ RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
 }  // namespace
 
 const RecordFormat knet_ascii{"k-net", "K-NET ASCII",
-                              [](const FileBeginning& file) { return file.text.starts_with("ORIGIN TIME"); }, read};
+                              [](const FileBeginning& file) { return file.text.starts_with("ORIGIN TIME"); }, read_knet};
 
 }  // namespace nsframe

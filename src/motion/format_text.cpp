@@ -47,7 +47,7 @@ double step_of(const Times& times, const TextRows& rows, std::size_t count, cons
   return dt;
 }
 
-RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
+RecordFormat::Reading read_text(LineReader& lines, const ReadOptions& options) {
   RecordFormat::Reading out;
   std::vector<double>& values = out.record.acceleration;
   TextRows rows(lines, 2);
@@ -67,6 +67,6 @@ RecordFormat::Reading read(LineReader& lines, const ReadOptions& options) {
 
 }  // namespace
 
-const RecordFormat plain_text{"text", "plain text or CSV", [](const FileBeginning&) { return true; }, read};
+const RecordFormat plain_text{"text", "plain text or CSV", [](const FileBeginning&) { return true; }, read_text};
 
 }  // namespace nsframe

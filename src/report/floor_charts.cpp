@@ -89,7 +89,7 @@ struct Track {
 };
 
 // Histories of the drawn floors in one direction of one quantity.
-struct Quantity {
+struct SpectralQuantity {
   std::string title;
   const char* unit;
   double factor;
@@ -158,7 +158,7 @@ class FloorReader {
 
  private:
   template <class Value>
-  void add(Quantity& quantity, const Value& value) {
+  void add(SpectralQuantity& quantity, const Value& value) {
     for (Track& track : quantity.tracks) track.add(value(track));
   }
 
@@ -189,12 +189,12 @@ class FloorReader {
   }
 
   // `between`: floors, not of one.
-  std::vector<ReportChart> charts(std::vector<Quantity>& quantities, bool between = false) {
+  std::vector<ReportChart> charts(std::vector<SpectralQuantity>& quantities, bool between = false) {
     double largest = 0;
-    for (const Quantity& quantity : quantities) largest = std::max(largest, quantity.largest());
+    for (const SpectralQuantity& quantity : quantities) largest = std::max(largest, quantity.largest());
     std::vector<ReportChart> charts;
     for (std::size_t k = 0; k < quantities.size(); ++k) {
-      Quantity& quantity = quantities[k];
+      SpectralQuantity& quantity = quantities[k];
       const double least = largest * (k == 2 ? vertical_matters : negligible);
       if (!(quantity.largest() > least) || quantity.largest() < 1e-12) continue;
       ReportChart chart{quantity.title, quantity.unit, "time, s", quantity.factor, true};
@@ -219,7 +219,7 @@ class FloorReader {
   const RunFolder& run_;
   std::vector<Place> places_;
   std::vector<std::array<double, 6>> means_;  // of each place in the present row
-  std::vector<Quantity> displacement_, drift_, twist_, acceleration_;
+  std::vector<SpectralQuantity> displacement_, drift_, twist_, acceleration_;
 };
 
 std::size_t count_drawn(const std::vector<Place>& places) {
