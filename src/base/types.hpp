@@ -19,5 +19,6 @@ using SparseMatrix = Eigen::SparseMatrix<double>;                       // by co
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;        // by rows
 
 inline constexpr double pi = 3.14159265358979323846;
+inline constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();
 
 }  // namespace nsframe

@@ -11,7 +11,6 @@ namespace nsframe {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // Sets from which on all wrong pairs change at once; below, one by one is as fast.
 constexpr Eigen::Index large = 16;
 // Share of entries of W above rounding below which it is factored as a sparse matrix.
@@ -24,7 +23,7 @@ struct Scaled {
 
   // What rounding leaves of W p + rhs, row by row.
   VectorX rounding(const VectorX& p) const {
-    return 4 * static_cast<double>(rhs.size()) * epsilon * (W.cwiseAbs() * p + rhs.cwiseAbs());
+    return 4 * static_cast<double>(rhs.size()) * machine_epsilon * (W.cwiseAbs() * p + rhs.cwiseAbs());
   }
 };
 
@@ -51,7 +50,7 @@ bool solve_one_by_one(const Scaled& problem, double dependence, VectorX& p, int&
     if (c < 0) return true;
     for (bool joined = false; !joined;) {
       const double left = factor.coefficients(c, d), sum = 1 + d.lpNorm<1>();
-      const bool depends = left <= std::max(dependence, 32 * epsilon * sum * sum);
+      const bool depends = left <= std::max(dependence, 32 * machine_epsilon * sum * sum);
       const double full = depends ? std::numeric_limits<double>::infinity() : -least / left;
       double step = full;
       Eigen::Index leaving = -1;
@@ -91,7 +90,7 @@ bool solve_one_by_one(const Scaled& problem, double dependence, VectorX& p, int&
 class SetSolver {
  public:
   explicit SetSolver(const MatrixX& W) : W_(W) {
-    const double dropped = 0.1 * epsilon;
+    const double dropped = 0.1 * machine_epsilon;
     const auto entries = (W.array().abs() > dropped).count();
     sparse_ = static_cast<double>(entries) < sparse_share * static_cast<double>(W.size());
     if (sparse_) near_ = (W.array().abs() > dropped).select(W, 0.0).sparseView();

@@ -12,7 +12,6 @@ namespace {
 
 using Matrix2 = Eigen::Matrix2d;
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int newton_iterations = 25, first_sweeps = 20;
 // Rows up to which a singular Jacobian is solved by least norm; above, with a small diagonal.
 constexpr Eigen::Index few_rows = 150;
@@ -137,7 +136,7 @@ double friction_error(const FrictionProblem& problem, const VectorX& impulse) {
 
 Vector3 solve_one_contact(const Matrix3& W, const Vector3& rhs, double friction) {
   if (rhs[0] >= 0) return Vector3::Zero();
-  const double least = 16 * epsilon * W.diagonal().maxCoeff();
+  const double least = 16 * machine_epsilon * W.diagonal().maxCoeff();
   // normal impulse eliminated: (S + alpha I) p_t = -b
   const Vector2 coupling = W.block<2, 1>(1, 0);
   const Matrix2 S = W.block<2, 2>(1, 1) - coupling * coupling.transpose() / W(0, 0);
@@ -165,7 +164,7 @@ Vector3 solve_one_contact(const Matrix3& W, const Vector3& rhs, double friction)
     low = high;
     high *= 4;
   }
-  for (int i = 0; i < 120 && high - low > 2 * epsilon * high; ++i) {
+  for (int i = 0; i < 120 && high - low > 2 * machine_epsilon * high; ++i) {
     const double middle = 0.5 * (low + high);
     (excess(impulse(middle)) > 0 ? low : high) = middle;
   }

@@ -12,7 +12,6 @@ namespace nsframe {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 // An approach slower than this part of the fastest one so far ends an accumulation of impacts, if the bounce would rise by less than
 // that part of what the gap is made of.
 constexpr double slowest_approach = 1e-8, least_bounce = 1e-13;
@@ -29,7 +28,7 @@ double bounce(double rate, double acceleration) {
 
 }  // namespace
 
-double EventFlow::rate_noise(int pair) const { return 32 * epsilon * modes_.gap.row(pair).cwiseAbs().dot(state_.y.cwiseAbs()); }
+double EventFlow::rate_noise(int pair) const { return 32 * machine_epsilon * modes_.gap.row(pair).cwiseAbs().dot(state_.y.cwiseAbs()); }
 
 // 0 <= r, W r + rhs >= 0, complementary, on some pairs. The active ones are solved again with more digits: W of a heavy mass on a light one
 // is nearly singular.
@@ -111,7 +110,7 @@ bool EventFlow::collide_once(const System& system, double time, double remaining
     const auto i = static_cast<std::size_t>(c);
     if (modes_.compliant[i]) continue;
     const bool closed = std::binary_search(contact_.closed.begin(), contact_.closed.end(), c);
-    const double noise = std::max(rate_noise(c), epsilon * largest_approach_);
+    const double noise = std::max(rate_noise(c), machine_epsilon * largest_approach_);
     if (!closed && (!contact_.touching[i] || (rate_[c] > noise && !last))) continue;
     pairs.push_back(c);
     closing = closing || rate_[c] < -noise;

@@ -13,7 +13,6 @@ namespace nsframe {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr int most_parts = 100000;   // of a step
 constexpr int most_follow_ups = 40;      // of what has no mass, until it rests
 constexpr double massless_rest = 1e-6;   // of the motion of a part, that may be left
@@ -43,10 +42,10 @@ bool EventSplit::is_closed(int pair) const { return std::binary_search(closed_.b
 double EventSplit::gap_tolerance(const System& system, int pair) const {
   double size = std::abs(system.contacts().initial_gap[pair]);
   for (SparseRows::InnerIterator entry(system.contacts().jacobian, pair); entry; ++entry) size += std::abs(entry.value() * q_[entry.col()]);
-  return 64 * epsilon * size + 1e-18;
+  return 64 * machine_epsilon * size + 1e-18;
 }
 
-double EventSplit::rate_tolerance() const { return 64 * epsilon * v_.cwiseAbs().maxCoeff() + 1e-12 * largest_approach_; }
+double EventSplit::rate_tolerance() const { return 64 * machine_epsilon * v_.cwiseAbs().maxCoeff() + 1e-12 * largest_approach_; }
 
 void EventSplit::find_gaps(const System& system) {
   gap_ = system.contacts().jacobian * q_;
@@ -59,7 +58,7 @@ void EventSplit::rest_massless(System& system, double sufficient) {
   for (int i = 0; i < most_follow_ups; ++i) {
     const VectorX change = impact_.follow(system.static_load - force_);
     const double size = change.cwiseAbs().maxCoeff();
-    if (!(size > sufficient + 4 * epsilon * q_.cwiseAbs().maxCoeff()) || size >= last) break;  // to rounding
+    if (!(size > sufficient + 4 * machine_epsilon * q_.cwiseAbs().maxCoeff()) || size >= last) break;  // to rounding
     last = size;
     q_ += change;
     system.assembler.start_step(*from_, *to_);

@@ -13,7 +13,7 @@ namespace nsframe {
 
 namespace {
 
-constexpr int most_rounds = 1000;      // impacts at one time one after another; then all touching pairs end them plastically
+constexpr int most_impact_rounds = 1000;      // impacts at one time one after another; then all touching pairs end them plastically
 constexpr double shortest_tail = 0.1;  // of the step: ever faster bounces that end within it are one plastic impact
 
 }  // namespace
@@ -84,8 +84,8 @@ void EventSplit::collide(const System& system, double time, double remaining, St
   for (int c = 0; c < system.contacts().size(); ++c) {
     if (is_closed(c) || touching_[static_cast<std::size_t>(c)]) rate_[c] = contact(system, c).momentum.dot(v_);
   }
-  for (int round = 0; round <= most_rounds; ++round) {
-    const bool last = round == most_rounds;
+  for (int round = 0; round <= most_impact_rounds; ++round) {
+    const bool last = round == most_impact_rounds;
     if (!collide_once(system, time, remaining, last, result)) break;
     if (last) ++result.accumulations.plastic;
   }

@@ -10,7 +10,6 @@ namespace nsframe {
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double series_angle = 0.05;  // w s up to which a return of a bounce is found from derivatives
 constexpr int most_halvings = 60;
 
@@ -20,8 +19,8 @@ void Flight::bound(double length, bool disturbed) {
   if (disturbed || !bound_holds_ || !contact_->closed.empty()) {
     propagator_.bound_fourth(*state_, mode_bound_);
     fourth_ = modes_.gap.cwiseAbs() * mode_bound_;
-    rounding_ = 64 * epsilon * (modes_.gap.cwiseAbs() * state_->x.cwiseAbs() + contact_->constant.cwiseAbs());
-    rate_rounding_ = 64 * epsilon * (modes_.gap.cwiseAbs() * state_->y.cwiseAbs());
+    rounding_ = 64 * machine_epsilon * (modes_.gap.cwiseAbs() * state_->x.cwiseAbs() + contact_->constant.cwiseAbs());
+    rate_rounding_ = 64 * machine_epsilon * (modes_.gap.cwiseAbs() * state_->y.cwiseAbs());
     for (int c = 0; c < modes_.pairs() && !forces_.empty(); ++c) fourth_[c] += sustained_.fourth_bound(forces_, c);
     bound_holds_ = contact_->closed.empty();
   }
@@ -75,9 +74,9 @@ void Flight::follow_touching(FlightEvent& event) {
   for (int c = 0; c < modes_.pairs(); ++c) {
     if (skip_[static_cast<std::size_t>(c)] || !contact_->touching[static_cast<std::size_t>(c)]) continue;
     const Eigen::Matrix<double, 7, 1> d = derivatives(c);
-    const double noise = 16 * epsilon * modes_.gap.row(c).cwiseAbs().dot(state_->y.cwiseAbs());
+    const double noise = 16 * machine_epsilon * modes_.gap.row(c).cwiseAbs().dot(state_->y.cwiseAbs());
     const double rate = d[1] > noise ? d[1] : 0;
-    const double noise2 = 64 * epsilon * mode_derivatives_.col(2).cwiseAbs().dot(modes_.gap.row(c).cwiseAbs().transpose());
+    const double noise2 = 64 * machine_epsilon * mode_derivatives_.col(2).cwiseAbs().dot(modes_.gap.row(c).cwiseAbs().transpose());
     const double second = std::abs(d[2]) > noise2 ? d[2] : 0;
     if (rate > 0 && second < 0) {
       double back = -2 * rate / second;
@@ -90,7 +89,7 @@ void Flight::follow_touching(FlightEvent& event) {
           }
           const double change = -value / slope;
           back += change;
-          if (!(std::abs(change) > 4 * epsilon * back)) break;
+          if (!(std::abs(change) > 4 * machine_epsilon * back)) break;
         }
         if (back > 0 && back <= event.time) {
           event = {back, FlightEvent::Kind::closes, c};
@@ -124,7 +123,7 @@ double Flight::refine(int pair, const Sample& a, const Sample& b) {
     const double gap = sample.gap[pair];
     (gap > 0 ? low : high) = at;
     const double change = -gap / sample.rate[pair];
-    if (std::abs(gap) <= tolerance_[pair] / 64 || high - low <= 2 * epsilon * high || std::abs(change) <= epsilon * at) break;
+    if (std::abs(gap) <= tolerance_[pair] / 64 || high - low <= 2 * machine_epsilon * high || std::abs(change) <= machine_epsilon * at) break;
     at += change;
   }
   return at;

@@ -10,7 +10,6 @@ namespace nsframe {
 
 namespace {
 
-constexpr double machine_epsilon = std::numeric_limits<double>::machine_epsilon();
 constexpr double jump_slope = 1e10;  // of a jump that is not used up, over 1 / compliance
 constexpr int most_bisections = 200;
 
