@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t most_series = 8, most_nodes = 6;
 constexpr double negligible = 1e-6;       // of the largest along any direction: such a chart is left out
 constexpr double vertical_matters = 0.1;  // the same along z
-constexpr std::array<const char*, 3> axis{"x", "y", "z"};
+constexpr std::array<const char*, 3> axis_name{"x", "y", "z"};
 
 struct Place {
   std::string name;
@@ -113,12 +113,12 @@ class FloorReader {
       }
       return list;
     };
-    for (const char* along : axis)
+    for (const char* along : axis_name)
       displacement_.push_back({fmt::format("Displacement along {}, relative to the base", along), "mm", 1e3, tracks(false)});
     for (std::size_t k = 0; k < 2; ++k)
-      drift_.push_back({fmt::format("Story drift along {}", axis[k]), "% of the height", 100, tracks(true)});
+      drift_.push_back({fmt::format("Story drift along {}", axis_name[k]), "% of the height", 100, tracks(true)});
     twist_.push_back({"Twist: rotation about z", "mrad", 1e3, tracks(false)});
-    for (const char* along : axis)
+    for (const char* along : axis_name)
       acceleration_.push_back({fmt::format("Absolute acceleration along {}", along), "m/s²", 1, tracks(false)});
   }
 
