@@ -2,16 +2,14 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "contact/friction.hpp"
+#include "tests/support/numbers.hpp"
 
 using namespace nsframe;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // The law itself, without the error measure: largest violation as a velocity or, with `w`, of impulses as one.
 double violation(const FrictionProblem& problem, const VectorX& p) {

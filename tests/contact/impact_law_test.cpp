@@ -2,16 +2,14 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 #include <random>
 
 #include "contact/impact_law.hpp"
+#include "tests/support/numbers.hpp"
 
 using namespace nsframe;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 VectorX solve(const ContactProblem& problem) {
   const ContactSolution solution = solve_active_set(problem, {});

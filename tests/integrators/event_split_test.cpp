@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/integrators/oscillators.hpp"
+#include "tests/integrators/runs.hpp"
 #include "tests/verification/closed_forms.hpp"
 #include "tests/verification/pair_of_masses.hpp"
 
@@ -12,19 +13,6 @@ using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-AnalysisOptions by_scheme(const std::string& scheme, double dt, double duration) {
-  AnalysisOptions o = options(0.5, dt, duration);
-  o.scheme = scheme;
-  return o;
-}
-
-Run completed(const ModelDescription& d, const AnalysisOptions& o) {
-  Run result = run(d, o);
-  CAPTURE(result.summary.stop_reason);
-  REQUIRE(result.summary.completed);
-  return result;
-}
 
 ModelDescription row(const std::vector<Oscillator>& bodies) {
   ModelDescription d;
@@ -44,16 +32,6 @@ double pull_back_error(const Run& run) {
     for (int k = 0; k < 2; ++k) error = std::max(error, std::abs(state.displacement[k] - pull_back_exact(state.time)[static_cast<std::size_t>(k)]));
   }
   return error;
-}
-
-// Largest difference of displacements at the times of the coarser run [m].
-double difference(const Run& coarse, const Run& fine) {
-  const std::size_t stride = (fine.states.size() - 1) / (coarse.states.size() - 1);
-  double largest = 0;
-  for (std::size_t i = 0; i < coarse.states.size(); ++i) {
-    largest = std::max(largest, (coarse.states[i].displacement - fine.states[i * stride].displacement).cwiseAbs().maxCoeff());
-  }
-  return largest;
 }
 
 }  // namespace

@@ -2,18 +2,17 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "base/errors.hpp"
 #include "integrators/scheme_choice.hpp"
 #include "tests/integrators/oscillators.hpp"
+#include "tests/support/numbers.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double g = 10, m = 3, mu = 0.4, friction_force = mu * m * g;  // [m/s2], [kg], [-], [N]
 
 // A block on the floor, node "s.1", free along x and z; it lies a nanometre deep, so that contact acts from the first step.

@@ -10,6 +10,7 @@
 #include "integrators/force_problem.hpp"
 #include "integrators/scheme_choice.hpp"
 #include "tests/integrators/penalty_models.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/support/reference_data.hpp"
 #include "tests/verification/closed_forms.hpp"
 
@@ -17,8 +18,6 @@ using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 std::string refusal(const ModelDescription& d, const std::string& scheme) {
   AnalysisOptions o = options(0.5, 1e-3, 0.1);

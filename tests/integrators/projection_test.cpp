@@ -2,18 +2,16 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "base/errors.hpp"
 #include "tests/integrators/oscillators.hpp"
+#include "tests/support/numbers.hpp"
 #include "tests/verification/closed_forms.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 AnalysisOptions projected(double theta, double dt, double duration, bool on = true) {
   AnalysisOptions o = options(theta, dt, duration);
