@@ -14,6 +14,8 @@ namespace nsframe {
 namespace {
 
 constexpr int most_parts = 100000;   // of a step
+// Overlap after a step that is an error: [m], and of what the fastest approach so far moves in a step.
+constexpr double least_overlap = 1e-7, overlap_of_motion = 0.01;
 constexpr int most_follow_ups = 40;      // of what has no mass, until it rests
 constexpr double massless_rest = 1e-6;   // of the motion of a part, that may be left
 constexpr double least_acceleration = 1e-3;  // counts as zero when the residual is judged [m/s2]
@@ -81,7 +83,7 @@ void EventSplit::start(System& system, const State& committed) {
   for (int c = 0; c < system.contacts().size(); ++c) {
     const double tolerance = 1e-12 * (std::abs(system.contacts().initial_gap[c]) + 1e-6) + gap_tolerance(system, c);
     if (gap_[c] > tolerance) continue;
-    if (gap_[c] < -tolerance) {
+    if (gap_[c] < -tolerance - (committed.time > 0 ? least_overlap : 0)) {  // what a step before may leave is contact
       throw InputError(fmt::format("error: contact pair '{}' overlaps by {:.3g} m; scheme 'event-split' starts from open or touching pairs",
                                    system.contacts().pairs[static_cast<std::size_t>(c)].name, -gap_[c]));
     }
@@ -238,6 +240,15 @@ double EventSplit::advance(System& system, double time, double length, StepResul
   return event.kind == Event::Kind::none ? length : s;
 }
 
+void EventSplit::check_gaps(const System& system, double time) const {
+  if (gap_.size() == 0) return;
+  Eigen::Index pair = 0;
+  const double least = gap_.minCoeff(&pair);
+  if (least >= -(least_overlap + overlap_of_motion * step_length_ * largest_approach_)) return;
+  throw ConvergenceError(fmt::format("contact pair '{}' overlaps by {:.3g} m after the step to t = {:.9g} s: its closing was missed",
+                                     system.contacts().pairs[static_cast<std::size_t>(pair)].name, -least, time));
+}
+
 void EventSplit::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result = StepResult{};
   result.least_gap = std::numeric_limits<double>::infinity();
@@ -258,7 +269,8 @@ void EventSplit::step(System& system, const State& committed, State& trial, doub
   if (fresh) start(system, committed);
   if (system.contacts().size() > 0) {
     find_gaps(system);
-    if (fresh) collide(system, committed.time, h, result);
+    // new loads may close pairs that touched without force
+    if (fresh || std::find(touching_.begin(), touching_.end(), true) != touching_.end()) collide(system, committed.time, h, result);
   }
   double at = 0;
   for (int parts = 0; at < h; ++parts) {
@@ -266,6 +278,7 @@ void EventSplit::step(System& system, const State& committed, State& trial, doub
     const double length = h - at, s = advance(system, committed.time + at, length, result);
     at = s == length ? h : at + s;
   }
+  check_gaps(system, committed.time + h);
   if (!system.linear() && from_ != &trial.history) trial.history = *from_;
   trial.time = committed.time + h;
   trial.displacement = q_;

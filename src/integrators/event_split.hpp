@@ -38,6 +38,8 @@ class EventSplit : public Scheme {
   // Ends a part of length s that moved by `change` at the mean velocity `mean`: energies, and histories where they have been written.
   void account(const System& system, double time, double s, const VectorX& change, const VectorX& old_velocity, const VectorX& old_force,
                StepResult& result);
+  // Throws ConvergenceError where a pair overlaps.
+  void check_gaps(const System& system, double time) const;
   Event find_event(double length);
   // Moves on to the next event, at most by `length`; returns by how much.
   double advance(System& system, double time, double length, StepResult& result);

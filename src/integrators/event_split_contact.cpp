@@ -156,12 +156,12 @@ bool EventSplit::collide_once(const System& system, double time, double remainin
 
 void EventSplit::settle(const System& system, double time, double remaining, StepResult& result) {
   std::vector<int> candidates, closed;
+  begin_flow(system, time, remaining, {});
   for (int c = 0; c < system.contacts().size(); ++c) {
-    const bool was = is_closed(c), slow = impact_.compliant(c) || std::abs(rate_[c]) <= rate_tolerance();
-    if (was || (touching_[static_cast<std::size_t>(c)] && slow)) candidates.push_back(c);
+    const bool slow = impact_.compliant(c) || std::abs(rate_[c]) <= rate_tolerance() || path_(c, 0) <= 0;
+    if (is_closed(c) || (touching_[static_cast<std::size_t>(c)] && slow)) candidates.push_back(c);
   }
   if (!candidates.empty()) {
-    begin_flow(system, time, remaining, {});
     const auto count = static_cast<Eigen::Index>(candidates.size());
     // constant forces that keep the gaps open at the end of the step
     VectorX rhs(count);

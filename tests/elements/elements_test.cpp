@@ -205,8 +205,8 @@ TEST_CASE("a force-based member remembers that a section softened, and not one t
     ForceBeams group(Geometry::linear);
     group.add({0, 1}, "f", fiber_member(skew_frame(), law));
     SampleProbe probe(group);
-    const Vector12 turn = 3e-2 * (Vector12::Unit(11) - Vector12::Unit(5));  // ends turn against each other
-    probe.force(0.01 * turn);
+    const Vector12 turn = 0.3 * (Vector12::Unit(11) - Vector12::Unit(5));  // ends turn against each other
+    probe.force(0.001 * turn);
     probe.commit();
     CHECK_FALSE(group.softened(0, probe.committed().data()));
     for (int k = 1; k <= 20; ++k) {

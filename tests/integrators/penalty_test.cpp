@@ -216,8 +216,9 @@ TEST_CASE("Newton's impacts and contact forces act in one scene: three masses in
       return most;
     };
     MESSAGE("mixed row, e = ", e, ": ", difference(coarse, 25), " m at 0.1 ms, ", difference(middle, 5), " at 0.02 ms");
-    CHECK(difference(coarse, 25) < 2e-4);
-    CHECK(difference(middle, 5) < 0.5 * difference(coarse, 25));
+    // of first order in the mean: an impact is late by any part of a step
+    CHECK(difference(coarse, 25) < 5e-6);
+    CHECK(difference(middle, 5) < 1e-6);
     CHECK(coarse.summary.worst_balance_error < 1e5 * epsilon);
     long both = 0;
     for (std::size_t i = 1; i < coarse.states.size(); ++i) {

@@ -120,11 +120,12 @@ TEST_CASE("the projection keeps the impacts of the pull-back, and its energy is 
     if (on) CHECK(largest_penetration(result, 0, 0.02) < 1e-12);
   }
   // of a ball lifted out of the floor, by hand: m g times the sum of the lifts
-  const Run lifted = run(ball(), projected(0.5, 1e-3, 1.5)), left = run(ball(), projected(0.5, 1e-3, 1.5, false));
+  const double h = 1.5e-3;  // it hits at two thirds of a step, later than gamma foresees
+  const Run lifted = run(ball(), projected(0.5, h, 1.5)), left = run(ball(), projected(0.5, h, 1.5, false));
   double lift = 0;
   for (std::size_t i = 1; i < lifted.states.size(); ++i) {
     const State &before = lifted.states[i - 1], &after = lifted.states[i];
-    lift += before.displacement[0] + 5e-4 * (before.velocity[0] + after.velocity[0]) - after.displacement[0];
+    lift += before.displacement[0] + 0.5 * h * (before.velocity[0] + after.velocity[0]) - after.displacement[0];
   }
   CHECK(lift > 1e-6);
   CHECK(lifted.summary.energy.numerical == doctest::Approx(-2 * lift).epsilon(1e-9));
