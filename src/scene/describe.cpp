@@ -95,7 +95,7 @@ std::vector<ContactDescription> describe(const ContactTable& contact) {
     if (!contact.restitution.values.empty()) one.restitution = contact.restitution.values.front();
     if (contact.restitution.values.size() > 1) one.restitutions = contact.restitution.values;
     one.friction = contact.friction;
-    one.law = contact.law;
+    if (faults(contact.law, {}).empty()) one.law = contact.law;  // else the checks of the scene have told it
     one.wall = contact.wall;
     one.reach = contact.reach;
     one.gap_tolerance = contact.gap_tolerance;

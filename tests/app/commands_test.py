@@ -355,6 +355,12 @@ class Commands(unittest.TestCase):
         done = self.nsframe("run", self.scene(text), code=2)
         self.assertRegex(done.stderr, r"s.toml:\d+:11: error: control 'displacemnt' is not known; did you mean 'displacement'\?")
 
+    def test_a_fault_of_a_contact_law_is_told_once(self):
+        for law, words in (("jankovski", "did you mean 'jankowski'?"), ("jankowski", "needs hertz_stiffness")):
+            done = self.nsframe("check", BALL, "--set", f"contact.law={law}", code=2)
+            self.assertEqual(done.stderr.count(words), 1, done.stderr)
+            self.assertEqual(done.stderr.count("error:"), 1, done.stderr)
+
     def test_buckling_prints_critical_factors_and_writes_shapes(self):
         done = self.nsframe("buckling", PUSHOVER)
         self.assertIn("critical factors of the loads of stage 'push'", done.stdout)
