@@ -1,6 +1,5 @@
 // The scheme event-split: its order across impacts, sustained contact without drift, hard cases of contact, and against exact.
 #include <doctest/doctest.h>
-#include <rapidcheck.h>
 
 #include <cmath>
 #include <random>
@@ -14,18 +13,6 @@ using namespace nsframe;
 using namespace nsframe::test;
 
 namespace {
-
-ModelDescription row(const std::vector<Oscillator>& bodies) {
-  ModelDescription d;
-  for (std::size_t i = 0; i < bodies.size(); ++i) d.structures.push_back(oscillator(static_cast<int>(i), bodies[i]));
-  return d;
-}
-
-ModelDescription pull_back(double e, double xi) {
-  ModelDescription d = row({{4600, 2.11e6, xi, -0.024}, {3500, 5.31e6, xi}});
-  d.contacts = {contact_of(0, 1, 0.02, e)};
-  return d;
-}
 
 double pull_back_error(const Run& run) {
   double error = 0;
@@ -261,23 +248,7 @@ TEST_CASE("event-split: converges to exact on random masses that hit each other"
 TEST_CASE("event-split: a run that goes on from a snapshot has the same bits") {
   const Model model = build(fiber_pair(Steel02{235e6, 210e9, 0.02}, ElementKind::displacement_beam, 4));
   const AnalysisOptions o = by_scheme("event-split", 1e-3, 0.1);
-  Simulation whole(model, o);
-  whole.run({});
-  for (const int stop_at : {3, 43}) {
-    Snapshot snapshot;
-    int steps = 0;
-    RunControl stop;
-    stop.stop_requested = [&] { return ++steps > stop_at; };
-    stop.keep_snapshot = [&](const Snapshot& kept) { snapshot = kept; };
-    Simulation first(model, o);
-    CHECK_FALSE(first.run({}, stop).completed);
-    RunControl go_on;
-    go_on.resume = &snapshot;
-    Simulation second(model, o);
-    CHECK(second.run({}, go_on).completed);
-    CHECK(second.state().displacement == whole.state().displacement);
-    CHECK(second.state().velocity == whole.state().velocity);
-  }
+  for (const int stop_at : {3, 43}) check_resumed(model, o, stop_at);
 }
 
 TEST_CASE("event-split: what it cannot take is refused by name") {

@@ -169,21 +169,7 @@ TEST_CASE("exponential: a yielding column pressed against a wall neither drifts 
 TEST_CASE("exponential: a run that goes on from a snapshot has the same bits") {
   const Model model = build(fiber_pair(Steel02{235e6, 210e9, 0.02}, ElementKind::displacement_beam, 4));
   const AnalysisOptions o = by_scheme("exponential", 1e-3, 0.1, 1e-3);
-  Simulation whole(model, o);
-  whole.run({});
-  Snapshot snapshot;
-  int steps = 0;
-  RunControl stop;
-  stop.stop_requested = [&] { return ++steps > 43; };
-  stop.keep_snapshot = [&](const Snapshot& kept) { snapshot = kept; };
-  Simulation first(model, o);
-  CHECK_FALSE(first.run({}, stop).completed);
-  RunControl go_on;
-  go_on.resume = &snapshot;
-  Simulation second(model, o);
-  CHECK(second.run({}, go_on).completed);
-  CHECK(second.state().displacement == whole.state().displacement);
-  CHECK(second.state().velocity == whole.state().velocity);
+  check_resumed(model, o, 43);
 }
 
 TEST_CASE("exponential: what it cannot take is refused by name") {

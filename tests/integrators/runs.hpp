@@ -36,4 +36,23 @@ inline double difference(const Run& coarse, const Run& fine, double until = 1e9)
   return largest;
 }
 
+// A run stopped after some steps and resumed from its snapshot ends with the bits of one that went through.
+inline void check_resumed(const Model& model, const AnalysisOptions& o, int stop_at) {
+  Simulation whole(model, o);
+  whole.run({});
+  Snapshot snapshot;
+  int steps = 0;
+  RunControl stop;
+  stop.stop_requested = [&] { return ++steps > stop_at; };
+  stop.keep_snapshot = [&](const Snapshot& kept) { snapshot = kept; };
+  Simulation first(model, o);
+  CHECK_FALSE(first.run({}, stop).completed);
+  RunControl go_on;
+  go_on.resume = &snapshot;
+  Simulation second(model, o);
+  CHECK(second.run({}, go_on).completed);
+  CHECK(second.state().displacement == whole.state().displacement);
+  CHECK(second.state().velocity == whole.state().velocity);
+}
+
 }  // namespace nsframe::test

@@ -39,18 +39,6 @@ ExactRun run(const ModelDescription& description, double dt, double duration) {
   return result;
 }
 
-ModelDescription row(const std::vector<Oscillator>& bodies) {
-  ModelDescription d;
-  for (std::size_t i = 0; i < bodies.size(); ++i) d.structures.push_back(oscillator(static_cast<int>(i), bodies[i]));
-  return d;
-}
-
-ModelDescription pull_back(double e, double xi) {
-  ModelDescription d = row({{4600, 2.11e6, xi, -0.024}, {3500, 5.31e6, xi}});
-  d.contacts = {contact_of(0, 1, 0.02, e)};
-  return d;
-}
-
 template <class Exact>
 double largest_error(const ExactRun& run, const Exact& exact) {
   double error = 0;
