@@ -106,15 +106,7 @@ TEST_CASE("the energy of a linear pounding balances to rounding, whatever theta"
 
 TEST_CASE("two free masses lose (1 - e^2)/2 of their reduced mass times the squared approach velocity") {
   for (const double theta : {0.5, 1.0}) {
-    ModelDescription d = single_mass(2, 0, 1.5);
-    d.structures[0].may_move_freely = true;
-    d.structures.push_back(d.structures[0]);
-    d.structures[1].name = "r";
-    d.structures[1].masses = {mass("1", 3)};
-    d.structures[1].initial_velocities.clear();
-    ContactDescription c = wall("s.1", 0.1, 0.4);
-    c.b = Reference{"r.1", {}};
-    d.contacts = {c};
+    const ModelDescription d = two_free_masses(0.4);
     const Run result = run(d, options(theta, 1e-3, 0.2));
     REQUIRE(result.summary.impacts.size() == 1);
     CHECK(result.summary.energy.contact == doctest::Approx(0.5 * 1.2 * (1 - 0.16) * 2.25).epsilon(64 * epsilon));

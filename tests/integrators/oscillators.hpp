@@ -105,4 +105,18 @@ inline Run run(const ModelDescription& description, const AnalysisOptions& optio
   return result;
 }
 
+// Masses of 2 and 3 kg, 0.1 m apart; the first moves at 1.5 m/s.
+inline ModelDescription two_free_masses(double e) {
+  ModelDescription d = single_mass(2, 0, 1.5);
+  d.structures[0].may_move_freely = true;
+  d.structures.push_back(d.structures[0]);
+  d.structures[1].name = "r";
+  d.structures[1].masses = {mass("1", 3)};
+  d.structures[1].initial_velocities.clear();
+  ContactDescription c = wall("s.1", 0.1, e);
+  c.b = Reference{"r.1", {}};
+  d.contacts = {c};
+  return d;
+}
+
 }  // namespace nsframe::test
