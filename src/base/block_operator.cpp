@@ -34,6 +34,7 @@ void BlockOperator::add_dense(const BlockRange& range, const MatrixX& matrix) {
     std::copy_n(matrix.col(j).data(), range.size(), block.dense.data() + static_cast<std::ptrdiff_t>(j) * block.padded_rows);
   }
   padded_.resize(std::max(padded_.size(), static_cast<std::size_t>(block.padded_rows)));
+  padded2_.resize(padded_.size());
   size_ = std::max(size_, range.last);
   blocks_.push_back(std::move(block));
 }
@@ -47,6 +48,23 @@ void BlockOperator::multiply(const VectorX& x, VectorX& y) const {
     } else {
       dense_multiply(block.dense.data(), block.padded_rows, range.size(), x.data() + range.first, padded_.data());
       std::copy_n(padded_.data(), range.size(), y.data() + range.first);
+    }
+  }
+}
+
+void BlockOperator::multiply(const VectorX& x, const VectorX& x2, VectorX& y, VectorX& y2) const {
+  y.resize(x.size());
+  y2.resize(x2.size());
+  for (const Block& block : blocks_) {
+    const BlockRange& range = block.range;
+    if (block.dense.empty()) {
+      y.segment(range.first, range.size()).noalias() = block.sparse * x.segment(range.first, range.size());
+      y2.segment(range.first, range.size()).noalias() = block.sparse * x2.segment(range.first, range.size());
+    } else {
+      dense_multiply(block.dense.data(), block.padded_rows, range.size(), x.data() + range.first, x2.data() + range.first, padded_.data(),
+                     padded2_.data());
+      std::copy_n(padded_.data(), range.size(), y.data() + range.first);
+      std::copy_n(padded2_.data(), range.size(), y2.data() + range.first);
     }
   }
 }

@@ -25,6 +25,8 @@ class BlockOperator {
 
   // y = A x; x and y may not be the same.
   void multiply(const VectorX& x, VectorX& y) const;
+  // y = A x and y2 = A x2, for less than twice the time of one.
+  void multiply(const VectorX& x, const VectorX& x2, VectorX& y, VectorX& y2) const;
   int size() const { return size_; }
 
  private:
@@ -37,7 +39,7 @@ class BlockOperator {
   void add_dense(const BlockRange& range, const MatrixX& matrix);
   int size_ = 0;
   std::vector<Block> blocks_;
-  mutable std::vector<double> padded_;
+  mutable std::vector<double> padded_, padded2_;
 };
 
 // The part of a block-diagonal matrix that belongs to one block.

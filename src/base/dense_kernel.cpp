@@ -10,7 +10,7 @@ namespace nsframe {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A block of `vectors` SIMD registers of rows, all columns: the sums stay in registers.
+// A block of `vectors` SIMD registers of rows, all columns, for one or two right-hand sides: the sums stay in registers.
 template <int vectors>
 void multiply_rows(const double* A, int rows, int columns, const double* x, double* y) {
   const hn::ScalableTag<double> tag;
@@ -25,12 +25,57 @@ void multiply_rows(const double* A, int rows, int columns, const double* x, doub
   for (int k = 0; k < vectors; ++k) hn::StoreU(sum[k], tag, y + k * width);
 }
 
-void multiply_target(const double* A, int rows, int columns, const double* x, double* y) {
+template <int vectors>
+void multiply_rows(const double* A, int rows, int columns, const double* x, const double* x2, double* y, double* y2) {
+  const hn::ScalableTag<double> tag;
+  const auto width = static_cast<int>(hn::Lanes(tag));
+  hn::Vec<decltype(tag)> sum[vectors], sum2[vectors];
+  for (int k = 0; k < vectors; ++k) sum[k] = sum2[k] = hn::Zero(tag);
+  for (int j = 0; j < columns; ++j) {
+    const auto factor = hn::Set(tag, x[j]), factor2 = hn::Set(tag, x2[j]);
+    const double* const column = A + static_cast<long>(j) * rows;
+    for (int k = 0; k < vectors; ++k) {
+      const auto entry = hn::LoadU(tag, column + k * width);
+      sum[k] = hn::MulAdd(entry, factor, sum[k]);
+      sum2[k] = hn::MulAdd(entry, factor2, sum2[k]);
+    }
+  }
+  for (int k = 0; k < vectors; ++k) {
+    hn::StoreU(sum[k], tag, y + k * width);
+    hn::StoreU(sum2[k], tag, y2 + k * width);
+  }
+}
+
+// Calls block<n>(row) for blocks of at most `most` registers, all of nearly one size: a short last block would wait for its sums.
+template <int n, class Block>
+void call_block(int size, int row, const Block& block) {
+  if constexpr (n > 0) {
+    if (size == n) {
+      block.template operator()<n>(row);
+    } else {
+      call_block<n - 1>(size, row, block);
+    }
+  }
+}
+
+template <int most, class Block>
+void over_rows(int rows, const Block& block) {
   const auto width = static_cast<int>(hn::Lanes(hn::ScalableTag<double>()));
-  int row = 0;
-  for (; row + 8 * width <= rows; row += 8 * width) multiply_rows<8>(A + row, rows, columns, x, y + row);
-  for (; row + 4 * width <= rows; row += 4 * width) multiply_rows<4>(A + row, rows, columns, x, y + row);
-  for (; row + width <= rows; row += width) multiply_rows<1>(A + row, rows, columns, x, y + row);
+  int left = rows / width, row = 0;
+  for (int blocks = (left + most - 1) / most; blocks > 0; --blocks) {
+    const int size = (left + blocks - 1) / blocks;
+    call_block<most>(size, row, block);
+    row += size * width;
+    left -= size;
+  }
+}
+
+void multiply_target(const double* A, int rows, int columns, const double* x, double* y) {
+  over_rows<8>(rows, [=]<int n>(int row) { multiply_rows<n>(A + row, rows, columns, x, y + row); });
+}
+
+void multiply_two_target(const double* A, int rows, int columns, const double* x, const double* x2, double* y, double* y2) {
+  over_rows<6>(rows, [=]<int n>(int row) { multiply_rows<n>(A + row, rows, columns, x, x2, y + row, y2 + row); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -41,9 +86,14 @@ HWY_AFTER_NAMESPACE();
 namespace nsframe {
 
 HWY_EXPORT(multiply_target);
+HWY_EXPORT(multiply_two_target);
 
 void dense_multiply(const double* A, int rows, int columns, const double* x, double* y) {
   HWY_DYNAMIC_DISPATCH(multiply_target)(A, rows, columns, x, y);
+}
+
+void dense_multiply(const double* A, int rows, int columns, const double* x, const double* x2, double* y, double* y2) {
+  HWY_DYNAMIC_DISPATCH(multiply_two_target)(A, rows, columns, x, x2, y, y2);
 }
 
 }  // namespace nsframe

@@ -28,7 +28,7 @@ double bounce(double rate, double acceleration) {
 
 }  // namespace
 
-double EventFlow::rate_noise(int pair) const { return 32 * machine_epsilon * modes_.gap.row(pair).cwiseAbs().dot(state_.y.cwiseAbs()); }
+double EventFlow::rate_noise(int pair) const { return 32 * machine_epsilon * modes_.gap_size.row(pair).dot(state_.y.cwiseAbs()); }
 
 // 0 <= r, W r + rhs >= 0, complementary, on some pairs. The active ones are solved again with more digits: W of a heavy mass on a light one
 // is nearly singular.
@@ -48,6 +48,7 @@ VectorX EventFlow::solve_forces(const System& system, const std::vector<int>& pa
   for (Eigen::Index i = 0; i < rhs.size(); ++i) {
     if (solution.impulse[i] > 0 || left[i] <= zero) active.push_back(i);
   }
+  if (active.size() == 1) return solution.impulse;
   using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
   Matrix G(static_cast<Eigen::Index>(active.size()), modes_.padded);
   Eigen::Matrix<long double, Eigen::Dynamic, 1> right(G.rows());
@@ -70,8 +71,8 @@ VectorX EventFlow::solve_forces(const System& system, const std::vector<int>& pa
 }
 
 VectorX EventFlow::accelerations() const {
-  const VectorX springs = compliant_forces(contact_.constant + modes_.gap * state_.x);
-  const VectorX modal = state_.f0 - 2 * modes_.decay.cwiseProduct(state_.y) - modes_.square.cwiseProduct(state_.x) + modes_.gap.transpose() * springs;
+  VectorX modal = state_.f0 - 2 * modes_.decay.cwiseProduct(state_.y) - modes_.square.cwiseProduct(state_.x);
+  if (!closed_pairs(true).empty()) modal += modes_.gap.transpose() * compliant_forces(contact_.constant + modes_.gap * state_.x);
   return modes_.gap * modal;
 }
 
@@ -126,7 +127,7 @@ bool EventFlow::collide_once(const System& system, double time, double remaining
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const int c = pairs[k];
     const double e = system.contacts().restitution[c], rise = bounce(e * rate_[c], pull[c]);
-    const double size = std::abs(contact_.constant[c]) + modes_.gap.row(c).cwiseAbs().dot(state_.x.cwiseAbs());
+    const double size = std::abs(contact_.constant[c]) + modes_.gap_size.row(c).dot(state_.x.cwiseAbs());
     ends[k] = -rate_[c] < slowest_approach * largest_approach_ && rise <= least_bounce * size;
     if (ends[k] && rate_[c] < -rate_noise(c)) {
       ++result.accumulations.ended;
@@ -142,11 +143,12 @@ bool EventFlow::collide_once(const System& system, double time, double remaining
           : poisson_impact(W, rhs, restitution, [&](const ContactProblem& one) {
               return solve_forces(system, pairs, one.rhs, result);
             }).impulse;
+  const double least = machine_epsilon * impulse.maxCoeff();  // beside the largest, less is rounding
   VectorX change = VectorX::Zero(modes_.dofs);
   const VectorX before = rate_;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const double p = impulse[static_cast<Eigen::Index>(k)];
-    if (p <= 0) continue;
+    if (!(p > least)) continue;
     state_.y += p * modes_.gap.row(pairs[k]).transpose();
     change += p * modes_.velocity_jump.col(pairs[k]);
   }
@@ -156,7 +158,7 @@ bool EventFlow::collide_once(const System& system, double time, double remaining
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const int c = pairs[k];
     const double p = impulse[static_cast<Eigen::Index>(k)];
-    if (p <= 0) continue;
+    if (!(p > least)) continue;
     step_impulse_[c] += p;
     result.contact -= 0.5 * p * (before[c] + rate_[c]);
     // the rest of an accumulation: it would have ended after the sum of its ever shorter flights

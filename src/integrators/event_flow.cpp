@@ -46,7 +46,7 @@ void EventFlow::start(const System& system, const State& committed) {
   rate_ = modes_.gap * state_.y;
   for (int c = 0; c < modes_.pairs(); ++c) {
     const auto at = static_cast<std::size_t>(c);
-    const double tolerance = 1e-12 * (std::abs(contact_.constant[c]) + modes_.gap.row(c).cwiseAbs().dot(state_.x.cwiseAbs()) + 1e-6);
+    const double tolerance = 1e-12 * (std::abs(contact_.constant[c]) + modes_.gap_size.row(c).dot(state_.x.cwiseAbs()) + 1e-6);
     if (gap_[c] > tolerance) continue;
     if (modes_.compliant[at]) {
       contact_.closed.push_back(c);
@@ -63,7 +63,9 @@ void EventFlow::start(const System& system, const State& committed) {
 
 void EventFlow::set_load(const System& system, double time, double length) {
   const auto& motions = system.model.motions;
-  VectorX f0 = modes_.static_load, f1 = VectorX::Zero(modes_.padded);
+  VectorX &f0 = state_.f0, &f1 = slope_;
+  f0 = modes_.static_load;
+  f1.setZero(modes_.padded);
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const GroundMotion& motion = motions[i];
     // the samples around the middle of the piece: its ends may round to either side of a sample
@@ -79,8 +81,7 @@ void EventFlow::set_load(const System& system, double time, double length) {
     f1 -= force_.slope;
   }
   disturbed_ = disturbed_ || f1 != state_.f1;
-  state_.f0 = std::move(f0);
-  state_.f1 = std::move(f1);
+  std::swap(state_.f1, slope_);
 }
 
 std::vector<double> EventFlow::cuts(const System& system, double time, double h) const {
@@ -133,12 +134,10 @@ void EventFlow::travel(const System& system, double time, double h, bool startin
   }
 }
 
-void EventFlow::write(VectorX& displacement, VectorX& velocity) const {
-  VectorX full(modes_.padded);
-  modes_.shape.multiply(state_.x, full);
-  displacement = full.head(modes_.dofs) + modes_.rest;
-  modes_.shape.multiply(state_.y, full);
-  velocity = full.head(modes_.dofs);
+void EventFlow::write(VectorX& displacement, VectorX& velocity) {
+  modes_.shape.multiply(state_.x, state_.y, full_, full_rate_);
+  displacement = full_.head(modes_.dofs) + modes_.rest;
+  velocity = full_rate_.head(modes_.dofs);
   if (closed_pairs(true).empty()) return;
   displacement += modes_.massless_response * compliant_forces(contact_.constant + modes_.gap * state_.x);
   velocity += modes_.massless_response * compliant_forces(modes_.gap * state_.y);
@@ -166,22 +165,22 @@ VectorX EventFlow::compliant_forces(const VectorX& gap) const {
 // With the forces of the flight that has just been found: of rigid pairs they do no work, of compliant ones they are in the strain.
 void EventFlow::add_energy(double time, double s, StepResult& result) {
   const ModalState& end = flight_.end();
-  const auto work_of = [&](const VectorX& f0, const VectorX& f1) {
-    return propagator_.work(f0, f1, state_, end, s) + sustained_.work(f1, flight_.forces(), s);
-  };
-  const double work = work_of(state_.f0, state_.f1);
-  const double strain = propagator_.strain_energy(end) - propagator_.strain_energy(state_);
-  const double kinetic = 0.5 * (end.y.squaredNorm() - state_.y.squaredNorm());
+  FlightEnergy change = propagator_.energy(state_.f0, state_.f1, state_, end, s);
+  change.work += sustained_.work(state_.f1, flight_.forces(), s);
   double springs = 0, rest = 0;
   if (!contact_.closed.empty()) {
     const VectorX before = compliant_forces(contact_.constant + modes_.gap * state_.x), after = compliant_forces(contact_.constant + modes_.gap * end.x);
     springs = 0.5 * (after.dot(modes_.compliance * after) - before.dot(modes_.compliance * before));
     rest = modes_.rest_gap.dot(after - before);
   }
-  const double against = force_.value.size() > 0 ? work_of(force_.value + (time - force_.time) * force_.slope, force_.slope) : 0;
-  result.strain += strain + springs + rest + against;
-  result.input += work + rest + against;
-  if (!modes_.undamped) result.damping += work - strain - springs - kinetic;
+  double against = 0;
+  if (force_.value.size() > 0) {
+    against = propagator_.energy(force_.value + (time - force_.time) * force_.slope, force_.slope, state_, end, s).work +
+              sustained_.work(force_.slope, flight_.forces(), s);
+  }
+  result.strain += change.strain + springs + rest + against;
+  result.input += change.work + rest + against;
+  if (!modes_.undamped) result.damping += change.work - change.strain - springs - change.kinetic;
 }
 
 void EventFlow::refuse_to_go_on(const System& system, double time, double interval) const {
@@ -251,7 +250,7 @@ void EventFlow::save(Snapshot& snapshot) const {
   snapshot.put("flow.contact", flags);
   snapshot.put("flow.contact_impulse", contact_impulse_);
   snapshot.put("flow.largest_approach", largest_approach_);
-  }
+}
 
 void EventFlow::restore(const Snapshot& snapshot) {
   state_.x = state_.y = state_.f0 = state_.f1 = VectorX::Zero(modes_.padded);

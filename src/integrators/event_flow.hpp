@@ -44,7 +44,7 @@ class EventFlow {
   const VectorX& impulse() const { return step_impulse_; }
   void clear_impulse() { step_impulse_.setZero(); }
   // Displacement and velocity of the free DOFs; what has no mass stands where static loads alone hold it.
-  void write(VectorX& displacement, VectorX& velocity) const;
+  void write(VectorX& displacement, VectorX& velocity);
   std::vector<std::string> describe() const;
   void save(Snapshot& snapshot) const;
   void restore(const Snapshot& snapshot);
@@ -85,6 +85,7 @@ class EventFlow {
   double largest_approach_ = 0;         // [m/s]
   bool disturbed_ = true;
   ModalForce force_;
+  VectorX full_, full_rate_, slope_;  // room for write() and set_load()
 };
 
 }  // namespace nsframe

@@ -33,8 +33,6 @@ void Exact::step(System& system, const State& committed, State& trial, double h,
   flow_.travel(system, committed.time, h, fresh, result);
   trial.time = committed.time + h;
   flow_.write(trial.displacement, trial.velocity);
-  system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force);
-  trial.acceleration = (trial.velocity - committed.velocity) / h;
   trial.impulse = flow_.impulse();
   last_displacement_ = trial.displacement;
   last_velocity_ = trial.velocity;

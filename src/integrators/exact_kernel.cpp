@@ -46,6 +46,26 @@ void step_target(int padded, const StepArrays& c, const double* x, const double*
   }
 }
 
+FlightEnergy energy_target(int padded, double s, const FlightArrays& m, const double* load0, const double* load1) {
+  const hn::ScalableTag<double> tag;
+  const auto width = static_cast<int>(hn::Lanes(tag));
+  const auto load = [&](const double* array, int i) { return hn::LoadU(tag, array + i); };
+  const auto time = hn::Set(tag, s), half_time = hn::Set(tag, 0.5 * s);
+  auto work = hn::Zero(tag), strain = work, kinetic = work;
+  for (int i = 0; i < padded; i += width) {
+    const auto x = load(m.x, i), y = load(m.y, i), x2 = load(m.x_after, i), y2 = load(m.y_after, i);
+    const auto p = load(load0, i), q = load(load1, i), a = load(m.decay, i);
+    const auto dx = hn::Sub(x2, x), dy = hn::Sub(y2, y);
+    // int f y dt = [f x] - f1 int x dt, and int x dt from the equation of motion
+    const auto change = hn::MulAdd(hn::Add(a, a), dx, dy);
+    const auto integral = hn::Mul(hn::MulSub(time, hn::MulAdd(half_time, load(m.f1, i), load(m.f0, i)), change), load(m.flexibility, i));
+    work = hn::MulAdd(p, dx, hn::MulAdd(q, hn::MulSub(time, x2, integral), work));
+    strain = hn::MulAdd(load(m.square, i), hn::Mul(dx, hn::Add(x2, x)), strain);
+    kinetic = hn::MulAdd(dy, hn::Add(y2, y), kinetic);
+  }
+  return {hn::GetLane(hn::SumOfLanes(tag, work)), 0.5 * hn::GetLane(hn::SumOfLanes(tag, strain)), 0.5 * hn::GetLane(hn::SumOfLanes(tag, kinetic))};
+}
+
 void gaps_target(int padded, int pairs, const double* G, const double* x, const double* y, double* gap, double* rate) {
   const hn::ScalableTag<double> tag;
   const auto width = static_cast<int>(hn::Lanes(tag));
@@ -71,6 +91,7 @@ namespace nsframe {
 
 HWY_EXPORT(propagate_target);
 HWY_EXPORT(step_target);
+HWY_EXPORT(energy_target);
 HWY_EXPORT(gaps_target);
 
 void propagate_oscillators(int padded, double s, const double* square, const double* decay, const double* damped, const double* x,
@@ -81,6 +102,10 @@ void propagate_oscillators(int padded, double s, const double* square, const dou
 void apply_step(int padded, const StepArrays& step, const double* x, const double* y, const double* f0, const double* f1, double* x_after,
                 double* y_after) {
   HWY_DYNAMIC_DISPATCH(step_target)(padded, step, x, y, f0, f1, x_after, y_after);
+}
+
+FlightEnergy sum_energy(int padded, double s, const FlightArrays& flight, const double* load0, const double* load1) {
+  return HWY_DYNAMIC_DISPATCH(energy_target)(padded, s, flight, load0, load1);
 }
 
 void multiply_gaps(int padded, int pairs, const double* G, const double* x, const double* y, double* gap, double* rate) {

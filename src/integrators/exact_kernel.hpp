@@ -16,6 +16,16 @@ struct StepArrays {
 void apply_step(int padded, const StepArrays& step, const double* x, const double* y, const double* f0, const double* f1, double* x_after,
                 double* y_after);
 
+// Over a free motion of length s from x, y under the loads f0 + f1 s to x_after, y_after: the work of the part load0 + load1 s of the loads
+// on oscillators, the change of their strain and of their kinetic energy [J].
+struct FlightEnergy {
+  double work = 0, strain = 0, kinetic = 0;
+};
+struct FlightArrays {
+  const double *square, *decay, *flexibility, *x, *y, *f0, *f1, *x_after, *y_after;
+};
+FlightEnergy sum_energy(int padded, double s, const FlightArrays& flight, const double* load0, const double* load1);
+
 // gap = G x, rate = G y; G: pairs x padded, by rows.
 void multiply_gaps(int padded, int pairs, const double* G, const double* x, const double* y, double* gap, double* rate);
 

@@ -148,6 +148,7 @@ void find_contacts(const System& system, const std::vector<BlockModes>& blocks, 
     modes.massless_response.middleRows(range.first, range.size()) = blocks[b].flexibility * part.transpose();
     modes.velocity_jump.middleRows(range.first, range.size()) = blocks[b].shape * modes.gap.middleCols(range.first, count).transpose();
   }
+  modes.gap_size = modes.gap.cwiseAbs();
   modes.delassus = modes.gap * modes.gap.transpose();
   modes.compliance = H * modes.massless_response;
   modes.compliant.assign(static_cast<std::size_t>(pairs), false);

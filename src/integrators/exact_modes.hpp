@@ -28,7 +28,7 @@ struct ExactModes {
   VectorX rest;                       // F F_g, free DOFs [m]
   // contact pairs
   SparseRows jacobian;                // H
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> gap;  // H Phi, a row a pair
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> gap, gap_size;  // H Phi, a row a pair; its absolute values
   VectorX gap_offset;                 // g0 + H rest [m]
   VectorX rest_gap;                   // H rest
   MatrixX delassus;                   // H Phi Phi' H' [1/kg]

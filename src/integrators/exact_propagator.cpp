@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "integrators/exact_kernel.hpp"
-
 namespace nsframe {
 
 namespace {
@@ -155,24 +153,18 @@ void Propagator::bound_fourth(const ModalState& state, VectorX& bound) const {
   }
 }
 
-double Propagator::work(const VectorX& f0, const VectorX& f1, const ModalState& from, const ModalState& to, double s) const {
-  // int f y dt = [f x] - f1 int x dt, and int x dt from the equation of motion
-  const double work = (f0 + s * f1).dot(to.x) - f0.dot(from.x);
-  if (f1.isZero(0)) return work;
-  const Eigen::ArrayXd change = (to.y - from.y).array() + 2 * modes_.decay.array() * (to.x - from.x).array();
-  const Eigen::ArrayXd integral = (s * (from.f0.array() + 0.5 * s * from.f1.array()) - change) * modes_.flexibility.array();
-  double correction = (f1.array() * integral).sum();
-  for (const int k : modes_.special) {
-    const StepCoefficients c = step_coefficients(modes_.square[k], modes_.decay[k], s);
-    // A = B' + 2 a B
-    correction += f1[k] * static_cast<double>((c.B + 2 * modes_.decay[k] * c.L) * from.x[k] + c.L * from.y[k] + c.R * from.f0[k] +
-                                                   c.Q * from.f1[k]);
+FlightEnergy Propagator::energy(const VectorX& f0, const VectorX& f1, const ModalState& from, const ModalState& to, double s) const {
+  const ExactModes& m = modes_;
+  FlightEnergy energy = sum_energy(m.padded, s,
+                                   {m.square.data(), m.decay.data(), m.flexibility.data(), from.x.data(), from.y.data(), from.f0.data(),
+                                    from.f1.data(), to.x.data(), to.y.data()},
+                                   f0.data(), f1.data());
+  for (const int k : m.special) {  // without flexibility: int x dt by the response's own integrals; A = B' + 2 a B
+    if (f1[k] == 0) continue;
+    const StepCoefficients c = step_coefficients(m.square[k], m.decay[k], s);
+    energy.work -= f1[k] * static_cast<double>((c.B + 2 * m.decay[k] * c.L) * from.x[k] + c.L * from.y[k] + c.R * from.f0[k] + c.Q * from.f1[k]);
   }
-  return work - correction;
-}
-
-double Propagator::strain_energy(const ModalState& state) const {
-  return 0.5 * (modes_.square.array() * state.x.array().square()).sum();
+  return energy;
 }
 
 }  // namespace nsframe

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "integrators/exact_kernel.hpp"
 #include "integrators/exact_modes.hpp"
 
 namespace nsframe {
@@ -36,10 +37,9 @@ class Propagator {
   // For every mode a bound on |d4 x / dt4| from now on, while the load keeps its slope.
   void bound_fourth(const ModalState& state, VectorX& bound) const;
 
-  // Work of a part f0 + f1 t of the loads over a free motion of length s between two states [J].
-  double work(const VectorX& f0, const VectorX& f1, const ModalState& from, const ModalState& to, double s) const;
-  // 1/2 w^2 x^2 summed [J].
-  double strain_energy(const ModalState& state) const;
+  // Over a free motion of length s between two states: the work of a part f0 + f1 t of the loads, and the changes of 1/2 w^2 x^2 and
+  // 1/2 y^2, summed [J].
+  FlightEnergy energy(const VectorX& f0, const VectorX& f1, const ModalState& from, const ModalState& to, double s) const;
 
  private:
   struct Step {

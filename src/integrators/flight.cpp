@@ -17,10 +17,15 @@ constexpr int most_halvings = 60;
 
 void Flight::bound(double length, bool disturbed) {
   if (disturbed || !bound_holds_ || !contact_->closed.empty()) {
+    rounding_.resize(modes_.pairs());
+    rate_rounding_.resize(modes_.pairs());
     propagator_.bound_fourth(*state_, mode_bound_);
-    fourth_ = modes_.gap.cwiseAbs() * mode_bound_;
-    rounding_ = 64 * machine_epsilon * (modes_.gap.cwiseAbs() * state_->x.cwiseAbs() + contact_->constant.cwiseAbs());
-    rate_rounding_ = 64 * machine_epsilon * (modes_.gap.cwiseAbs() * state_->y.cwiseAbs());
+    fourth_.noalias() = modes_.gap_size * mode_bound_;
+    size_ = state_->x.cwiseAbs();
+    rate_size_ = state_->y.cwiseAbs();
+    multiply_gaps(modes_.padded, modes_.pairs(), modes_.gap_size.data(), size_.data(), rate_size_.data(), rounding_.data(), rate_rounding_.data());
+    rounding_ = 64 * machine_epsilon * (rounding_ + contact_->constant.cwiseAbs());
+    rate_rounding_ *= 64 * machine_epsilon;
     for (int c = 0; c < modes_.pairs() && !forces_.empty(); ++c) fourth_[c] += sustained_.fourth_bound(forces_, c);
     bound_holds_ = contact_->closed.empty();
   }
@@ -74,9 +79,9 @@ void Flight::follow_touching(FlightEvent& event) {
   for (int c = 0; c < modes_.pairs(); ++c) {
     if (skip_[static_cast<std::size_t>(c)] || !contact_->touching[static_cast<std::size_t>(c)]) continue;
     const Eigen::Matrix<double, 7, 1> d = derivatives(c);
-    const double noise = 16 * machine_epsilon * modes_.gap.row(c).cwiseAbs().dot(state_->y.cwiseAbs());
+    const double noise = 16 * machine_epsilon * modes_.gap_size.row(c).dot(state_->y.cwiseAbs());
     const double rate = d[1] > noise ? d[1] : 0;
-    const double noise2 = 64 * machine_epsilon * mode_derivatives_.col(2).cwiseAbs().dot(modes_.gap.row(c).cwiseAbs().transpose());
+    const double noise2 = 64 * machine_epsilon * mode_derivatives_.col(2).cwiseAbs().dot(modes_.gap_size.row(c).transpose());
     const double second = std::abs(d[2]) > noise2 ? d[2] : 0;
     if (rate > 0 && second < 0) {
       double back = -2 * rate / second;
@@ -172,7 +177,11 @@ FlightEvent Flight::find(const ModalState& state, const ContactState& contact, d
   }
   bound(event.time, disturbed);
   follow_touching(event);
-  Sample start{0, VectorX(pairs), VectorX(pairs)}, finish{event.time, VectorX(pairs), VectorX(pairs)};
+  Sample &start = start_, &finish = finish_;
+  for (Sample* sample : {&start, &finish}) {
+    sample->gap.resize(pairs);
+    sample->rate.resize(pairs);
+  }
   multiply_gaps(modes_.padded, pairs, modes_.gap.data(), state.x.data(), state.y.data(), start.gap.data(), start.rate.data());
   start.gap += contact.constant;
   add_compliance(0, start.gap, start.rate);
@@ -198,8 +207,6 @@ FlightEvent Flight::find(const ModalState& state, const ContactState& contact, d
     event = earlier;
     move_to(event.time);
   }
-  end_gap_ = finish.gap;
-  end_rate_ = finish.rate;
   return event;
 }
 

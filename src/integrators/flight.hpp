@@ -32,8 +32,8 @@ class Flight {
   FlightEvent find(const ModalState& state, const ContactState& contact, double length, bool regular, bool disturbed);
 
   ModalState& end() { return end_; }
-  const VectorX& end_gap() const { return end_gap_; }
-  const VectorX& end_rate() const { return end_rate_; }
+  const VectorX& end_gap() const { return finish_.gap; }
+  const VectorX& end_rate() const { return finish_.rate; }
   const ContactForces& forces() const { return forces_; }
   // Gap rounding counts as zero up to here [m].
   double tolerance(int pair) const { return tolerance_[pair]; }
@@ -64,7 +64,8 @@ class Flight {
   const ContactState* contact_ = nullptr;
   ContactForces forces_;
   ModalState end_, probe_;
-  VectorX end_gap_, end_rate_, start_gap_, start_rate_, fourth_, tolerance_, rounding_, rate_rounding_, mode_bound_;
+  Sample start_, finish_;
+  VectorX fourth_, tolerance_, rounding_, rate_rounding_, mode_bound_, size_, rate_size_;
   std::vector<bool> skip_;        // closed, or certain to stay open
   Eigen::Matrix<double, Eigen::Dynamic, 7> mode_derivatives_;
   bool have_derivatives_ = false;

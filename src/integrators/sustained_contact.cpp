@@ -198,7 +198,7 @@ VectorX SustainedContact::force_noise(const ModalState& state, const std::vector
     const int pair = pairs[static_cast<std::size_t>(c)];
     const bool compliant = modes_.compliant[static_cast<std::size_t>(pair)];
     scale[c] = compliant ? 0 : 1 / std::sqrt(modes_.delassus(pair, pair));
-    acceleration[c] = 16 * std::numeric_limits<double>::epsilon() * modes_.gap.row(pair).cwiseAbs().dot(terms);
+    acceleration[c] = 16 * std::numeric_limits<double>::epsilon() * modes_.gap_size.row(pair).dot(terms);
   }
   Eigen::CompleteOrthogonalDecomposition<MatrixX> factor;
   factor.setThreshold(1e-12);

@@ -1,0 +1,81 @@
+// The inner loops of the scheme `exact` against plain sums, on every SIMD target this machine has.
+#include "integrators/exact_kernel.hpp"
+
+#include <doctest/doctest.h>
+#include <hwy/targets.h>
+
+#include "base/block_operator.hpp"
+#include "base/dense_kernel.hpp"
+#include "tests/support/numbers.hpp"
+
+using namespace nsframe;
+
+namespace {
+
+template <class Check>
+void on_every_target(const Check& check) {
+  const auto supported = hwy::SupportedTargets();
+  for (auto left = supported; left != 0; left &= left - 1) {
+    const auto lowest = left & (~left + 1);
+    hwy::SetSupportedTargetsForTest(lowest);
+    CAPTURE(hwy::TargetName(lowest));
+    check();
+  }
+  hwy::SetSupportedTargetsForTest(0);
+}
+
+}  // namespace
+
+TEST_CASE("exact kernel: a block operator multiplies one vector, and two in one pass, as plain products do") {
+  std::srand(1);
+  on_every_target([] {
+    for (const int size : {1, 7, 8, 9, 16, 40, 68, 72, 73, 136}) {
+      CAPTURE(size);
+      const MatrixX A = MatrixX::Random(size, size), B = MatrixX::Random(3, 3);
+      const BlockOperator both({A, B}, {{0, size}, {size, size + 3}});
+      const VectorX x = VectorX::Random(size + 3), x2 = VectorX::Random(size + 3);
+      VectorX expected(size + 3), expected2(size + 3), y, y2, once;
+      expected << A * x.head(size), B * x.tail(3);
+      expected2 << A * x2.head(size), B * x2.tail(3);
+      both.multiply(x, x2, y, y2);
+      both.multiply(x, once);
+      CHECK((y - expected).cwiseAbs().maxCoeff() <= size * epsilon);
+      CHECK((y2 - expected2).cwiseAbs().maxCoeff() <= size * epsilon);
+      CHECK((once - expected).cwiseAbs().maxCoeff() <= size * epsilon);
+    }
+  });
+}
+
+TEST_CASE("exact kernel: two right-hand sides with a sparse block") {
+  const SparseMatrix identity = 2 * MatrixX::Identity(40, 40).sparseView();
+  const BlockOperator doubled(identity, {{0, 40}}, 8);
+  const VectorX x = VectorX::LinSpaced(40, 1, 40), x2 = -x;
+  VectorX y, y2;
+  doubled.multiply(x, x2, y, y2);
+  CHECK(y == 2 * x);
+  CHECK(y2 == 2 * x2);
+}
+
+TEST_CASE("exact kernel: work, strain and kinetic energy of a flight are plain sums") {
+  std::srand(2);
+  on_every_target([] {
+    constexpr int n = 4 * dense_row_padding;
+    const double s = 0.3;
+    const auto random = [] { return VectorX(VectorX::Random(n)); };
+    const VectorX square = random().cwiseAbs(), decay = random().cwiseAbs(), flexibility = random(), x = random(), y = random(), f0 = random(),
+                  f1 = random(), x2 = random(), y2 = random(), load0 = random(), load1 = random();
+    double work = 0, strain = 0, kinetic = 0;
+    for (int i = 0; i < n; ++i) {
+      const double integral = flexibility[i] * (s * f0[i] + s * s * f1[i] / 2 - (y2[i] - y[i]) - 2 * decay[i] * (x2[i] - x[i]));
+      work += (load0[i] + s * load1[i]) * x2[i] - load0[i] * x[i] - load1[i] * integral;
+      strain += square[i] * (x2[i] * x2[i] - x[i] * x[i]) / 2;
+      kinetic += (y2[i] * y2[i] - y[i] * y[i]) / 2;
+    }
+    const FlightEnergy energy = sum_energy(
+        n, s, {square.data(), decay.data(), flexibility.data(), x.data(), y.data(), f0.data(), f1.data(), x2.data(), y2.data()}, load0.data(),
+        load1.data());
+    CHECK(energy.work == doctest::Approx(work).epsilon(1e-13));
+    CHECK(energy.strain == doctest::Approx(strain).epsilon(1e-13));
+    CHECK(energy.kinetic == doctest::Approx(kinetic).epsilon(1e-13));
+  });
+}
