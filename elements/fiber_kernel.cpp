@@ -64,44 +64,55 @@ HWY_NOINLINE void add_block(const Law& block_law, const FiberSection& section, c
   total.tangent += tangent;
 }
 
+constexpr double farthest_reach = 1e300;
+
 template <class Law>
 concept Screened = requires(const Law& law) { law.quiet_limit(0.0); };
 
 template <class QuietHistory>
 using QuietComponents = std::make_index_sequence<std::is_empty_v<QuietHistory> ? 0 : sizeof(QuietHistory) / sizeof(Lanes)>;
 
-// Brings the block's quiet histories to `deformation`; false when a fiber leaves the line.
+// Brings the block's quiet histories along the path; false when a fiber leaves the line. Lowers `reach` to what is left to its fibers.
 template <class Law>
-HWY_NOINLINE bool keep_block_quiet(const Law& block_law, const FiberSection& section, const FiberBlock& block,
-                                   const Vector3& before, const Vector3& deformation, const double* committed, double* trial) {
+HWY_NOINLINE bool follow_block(const Law& block_law, const FiberSection& section, const FiberBlock& block, const QuietPath& path,
+                               const double* committed, double* trial, double& reach) {
   using QuietHistory = typename Law::template QuietHistory<Lanes>;
   const Law law = block_law;
-  const Lanes e0(deformation[0]), kz(deformation[1]), ky(deformation[2]);
-  const Lanes before_e0(before[0]), before_kz(before[1]), before_ky(before[2]);
   const std::ptrdiff_t width = static_cast<std::ptrdiff_t>(hn::Lanes(LaneTag())), count = block.count;
+  Lanes least(reach);
   for (std::ptrdiff_t i = 0; i < count; i += width) {
     const Lanes y = Lanes::load(section.y.data() + block.first + i), z = Lanes::load(section.z.data() + block.first + i);
+    const auto strain_at = [&](int step) HWY_ATTR {
+      const double* const d = path.deformation[step];
+      return Lanes(d[0]) - y * Lanes(d[1]) + z * Lanes(d[2]);
+    };
     auto quiet = load_history<QuietHistory>(committed + block.history_begin + i, count, QuietComponents<QuietHistory>());
-    if (!all(stays_linear(law, block.quiet_limit, before_e0 - y * before_kz + z * before_ky, e0 - y * kz + z * ky, quiet))) return false;
+    Lanes strain = strain_at(0);
+    for (int step = 1; step <= path.steps; ++step) {
+      const Lanes before = strain;
+      strain = strain_at(step);
+      if (!all(stays_linear(law, block.quiet_limit, before, strain, quiet))) return false;
+    }
     store_history(quiet, trial + block.history_begin + i, count, QuietComponents<QuietHistory>());
+    least = min(least, linear_reach(law, block.quiet_limit, strain, quiet));
   }
+  reach = least.least();
   return true;
 }
 
-bool stay_quiet_target(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial) {
-  const Vector3 before(committed[1], committed[2], committed[3]);
-  trial[0] = 1;
-  for (Eigen::Index k = 0; k < 3; ++k) trial[1 + k] = deformation[k];
+bool follow_path_target(const FiberSection& section, const QuietPath& path, const double* committed, double* trial, double& reach) {
   bool quiet = true;
+  reach = farthest_reach;
   for (const FiberBlock& block : section.blocks) {
     std::visit(
         [&](const auto& law) HWY_ATTR {
           if constexpr (Screened<std::decay_t<decltype(law)>>) {
-            quiet = quiet && keep_block_quiet(law, section, block, before, deformation, committed, trial);
+            quiet = quiet && follow_block(law, section, block, path, committed, trial, reach);
           }
         },
         block.law);
   }
+  reach = 0.99 * reach - 1e-15;  // sums of strains are rounded
   return quiet;
 }
 
@@ -129,10 +140,10 @@ HWY_AFTER_NAMESPACE();
 namespace nsframe {
 
 HWY_EXPORT(respond_target);
-HWY_EXPORT(stay_quiet_target);
+HWY_EXPORT(follow_path_target);
 
-bool stay_quiet(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial) {
-  return HWY_DYNAMIC_DISPATCH(stay_quiet_target)(section, deformation, committed, trial);
+bool follow_path(const FiberSection& section, const QuietPath& path, const double* committed, double* trial, double& reach) {
+  return HWY_DYNAMIC_DISPATCH(follow_path_target)(section, path, committed, trial, reach);
 }
 
 SectionResponse respond(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial,

@@ -58,6 +58,8 @@ FiberSection::FiberSection(const std::vector<Fiber>& all, double gj, AddedLaws l
     for (const Fiber* fiber : members) {
       y.push_back(fiber->y);
       z.push_back(fiber->z);
+      largest_y = std::max(largest_y, std::abs(fiber->y));
+      largest_z = std::max(largest_z, std::abs(fiber->z));
       area.push_back(fiber->area);
       material.push_back(fiber->material);
     }

@@ -49,6 +49,7 @@ struct FiberSection {
   int added_begin = 0;
   int history_size = 0;          // doubles
   int fibers = 0;
+  double largest_y = 0, largest_z = 0;  // |y| and |z| of the fibers [m]
   bool screened = false;         // starts quiet (screening.hpp)
   SectionResponse virgin;        // at no deformation
 

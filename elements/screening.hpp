@@ -1,18 +1,32 @@
 // Exact elastic screening of fiber sections (theory.md, "Quiet sections"). A section is quiet while all its fibers are
-// virgin and where their laws are linear to rounding, or to a relative error of stress that the section was given: it then answers with its virgin tangent, and only what decides how
-// a fiber would leave the line later (Steel02: the point of its last reversal) is kept up to date fiber by fiber.
+// virgin and where their laws are linear to rounding, or to a relative error of stress that the section was given: it then answers with
+// its virgin tangent, and only what decides how a fiber would leave the line later (Steel02: the point of its last reversal) is kept
+// fiber by fiber.
 //
-// History of a section: four doubles of its own, [is quiet, e0, kz, ky], then those of its blocks. While it is quiet the
-// deformation stands in the first four, and each block has only the law's QuietHistory, in the place of the first
-// components of its History; the rest is stale. open_history() makes an ordinary history of it.
+// That, too, is brought up to date only every so many evaluations: while the strains have moved by less than what certainly leaves every
+// fiber on the line, deformations are noted and no fiber is looked at.
+//
+// History of a section: its QuietHead, then those of its blocks. While it is quiet each block has only the law's QuietHistory, in the
+// place of the first components of its History, as it was at the first of the noted deformations; the rest is stale. open_history()
+// makes an ordinary history of it.
 #pragma once
 
 #include "elements/fiber_section.hpp"
 
 namespace nsframe {
 
-// Its own doubles in a section's history.
-inline constexpr int section_head = 4;
+inline constexpr int pending_deformations = 8;  // noted before the fibers are brought up to date
+
+// The first doubles of a section's history.
+struct QuietHead {
+  double quiet;    // 1, or 0: then the rest is stale
+  double stamp;    // names what the blocks keep, by what made it: two histories with one stamp keep the same bits
+  double pending;  // deformations noted since
+  double reach;    // what the strains may still move, summed up, with no fiber leaving the line [-]
+  double deformation[pending_deformations + 1][3];  // that of the blocks' histories, then those noted
+};
+
+inline constexpr int section_head = sizeof(QuietHead) / sizeof(double);
 
 inline bool is_quiet(const double* history) { return history[0] != 0; }
 
@@ -29,7 +43,16 @@ void start_quiet(const FiberSection& section, double* history);
 void open_history(const FiberSection& section, const double* quiet, double* history);
 
 // Brings the quiet history of a section to `deformation`; false when a fiber leaves the line there (`trial` then holds
-// no history).
+// no history). `trial` may be any history of this section, or zeros.
 bool stay_quiet(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial);
+
+// Deformations a section went through, from that of its blocks' histories on.
+struct QuietPath {
+  int steps = 0;  // without the first
+  double deformation[pending_deformations + 2][3];
+};
+// Brings the blocks' quiet histories along the path, fiber by fiber; false when one leaves the line. `reach`: as in QuietHead, at its end.
+// By SIMD, as respond().
+bool follow_path(const FiberSection& section, const QuietPath& path, const double* committed, double* trial, double& reach);
 
 }  // namespace nsframe

@@ -60,6 +60,11 @@ HWY_INLINE auto stays_linear(const Elastic&, double, T, T strain, Elastic::Quiet
   return strain == strain;  // all, unless it is not a number
 }
 
+template <class T>
+HWY_INLINE T linear_reach(const Elastic&, double, T, const Elastic::QuietHistory<T>&) {
+  return T(std::numeric_limits<double>::max());
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace nsframe
 HWY_AFTER_NAMESPACE();

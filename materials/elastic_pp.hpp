@@ -68,6 +68,12 @@ HWY_INLINE auto stays_linear(const ElasticPP& law, double, T, T strain, ElasticP
   return both(elastic < T(law.epsyP), elastic > T(law.compression_yield()));
 }
 
+template <class T>
+HWY_INLINE T linear_reach(const ElasticPP& law, double, T strain, const ElasticPP::QuietHistory<T>&) {
+  const T elastic = strain - T(law.eps0);
+  return min(T(law.epsyP) - elastic, elastic - T(law.compression_yield()));
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace nsframe
 HWY_AFTER_NAMESPACE();

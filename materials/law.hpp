@@ -21,7 +21,8 @@
 //                           itself, or by rounding; 0 where these parameters allow no screening
 //   opened(strain, quiet)   the whole history at a strain
 // and a function stays_linear(law, limit, before, strain, quiet) beside respond(): the mask of fibers that are linear at
-// `strain`, having been at the strain `before`; brings `quiet` to the new strain.
+// `strain`, having been at the strain `before`; brings `quiet` to the new strain. And linear_reach(law, limit, strain, quiet): while
+// the strain moves from there by less than that, forth and back summed up, stays_linear() holds for certain.
 #pragma once
 
 #include <limits>

@@ -53,6 +53,7 @@ struct Lanes {
   void store(double* to) const { hn::StoreU(lanes, LaneTag(), to); }
   static constexpr int width() { return static_cast<int>(hn::MaxLanes(LaneTag())); }
   double sum() const { return hn::GetLane(hn::SumOfLanes(LaneTag(), lanes)); }
+  double least() const { return hn::GetLane(hn::MinOfLanes(LaneTag(), lanes)); }
 };
 
 inline Lanes operator+(Lanes a, Lanes b) { return hn::Add(a.lanes, b.lanes); }

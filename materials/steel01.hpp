@@ -62,6 +62,11 @@ HWY_INLINE auto stays_linear(const Steel01& law, double, T, T strain, Steel01::Q
   return abs(strain) < T(law.fy / law.E);
 }
 
+template <class T>
+HWY_INLINE T linear_reach(const Steel01& law, double, T strain, const Steel01::QuietHistory<T>&) {
+  return T(law.fy / law.E) - abs(strain);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace nsframe
 HWY_AFTER_NAMESPACE();

@@ -160,6 +160,15 @@ HWY_INLINE auto stays_linear(const Steel02& law, double limit, T before_from_zer
   return either(unmoved, abs(strain - quiet.reversal_strain) < room);
 }
 
+// On the way the fiber may reverse, at a strain that is by no more than the reach nearer to the asymptote.
+template <class T>
+HWY_INLINE T linear_reach(const Steel02& law, double limit, T strain_from_zero, const Steel02::QuietHistory<T>& quiet) {
+  const T strain = strain_from_zero + T(law.sigInit / law.E), yield_strain(law.fy / law.E), zero(0.0);
+  const T kept = abs(quiet.asymptote_strain - quiet.reversal_strain), range = select(kept == zero, yield_strain - abs(quiet.reversal_strain), kept);
+  const T going_on = T(limit) * range - abs(strain - quiet.reversal_strain);
+  return min(going_on, T(limit / (1 + limit)) * (yield_strain - abs(strain)));
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace nsframe
 HWY_AFTER_NAMESPACE();

@@ -156,3 +156,57 @@ TEST_CASE("trial responses of a quiet section leave its committed history as it 
   CHECK_FALSE(is_quiet(trial.data()));
   CHECK(committed == before);
 }
+
+TEST_CASE("fibers of a quiet section that are visited now and then are those that are visited at every step, to the last bit") {
+  int deferred = 0, opened = 0;
+  for (const NamedSection& named : sections()) {
+    CAPTURE(std::string(named.name));
+    const FiberSection& section = named.section;
+    for (unsigned seed = 1; seed < 4; ++seed) {
+      std::mt19937 random(seed);
+      std::uniform_real_distribution<double> uniform(-1, 1);
+      // several trial buffers with leftovers of refused trials, as halved and repeated steps leave them
+      std::vector<VectorX> buffers(4, VectorX(section.history_size));
+      for (VectorX& buffer : buffers) initialize_history(section, buffer.data());
+      VectorX eager = buffers[0], next = eager, a = eager, b = eager;
+      std::size_t committed = 0;
+      const Vector3 scale(yield / 3, yield / 3 / 0.04, yield / 3 / 0.024);
+      Vector3 deformation = Vector3::Zero(), target = Vector3::Zero();
+      for (int step = 0; step < 600; ++step) {
+        if (step % 20 == 0) target = (0.05 + 0.001 * step) * Vector3(uniform(random), uniform(random), uniform(random)).cwiseProduct(scale);
+        const Vector3 before = deformation;
+        deformation += 0.05 * (target - deformation);
+        std::size_t trial = committed;
+        while (trial == committed) trial = random() % buffers.size();
+        if (step % 3 == 0) {  // a refused trial
+          respond(section, 3 * deformation, buffers[committed].data(), buffers[trial].data());
+        }
+        if (step % 5 == 0) {
+          while (trial == committed) trial = random() % buffers.size();
+        }
+        respond(section, deformation, buffers[committed].data(), buffers[trial].data());
+        committed = trial;
+        QuietPath path;
+        path.steps = 1;
+        std::copy_n(before.data(), 3, path.deformation[0]);
+        std::copy_n(deformation.data(), 3, path.deformation[1]);
+        double reach = 0;
+        const bool quiet = follow_path(section, path, eager.data(), next.data(), reach);
+        REQUIRE(quiet == is_quiet(buffers[committed].data()));
+        if (!quiet) {
+          ++opened;
+          break;
+        }
+        eager.swap(next);
+        auto& head = *reinterpret_cast<QuietHead*>(eager.data());
+        head = {1, 0, 0, 0, {{deformation[0], deformation[1], deformation[2]}}};
+        deferred += reinterpret_cast<const QuietHead*>(buffers[committed].data())->pending > 0 ? 1 : 0;
+        open_history(section, eager.data(), a.data());
+        open_history(section, buffers[committed].data(), b.data());
+        REQUIRE(a == b);
+      }
+    }
+  }
+  CHECK(deferred > 1000);
+  CHECK(opened > 5);
+}
