@@ -17,8 +17,8 @@ BlockOperator::BlockOperator(const SparseMatrix& matrix, const std::vector<Block
     if (range.size() <= dense_limit && crowded) {
       add_dense(range, MatrixX(part));
     } else {
-      blocks_.push_back({range, 0, {}, SparseRows(part)});
-      size_ = std::max(size_, range.last);
+      ChunkedRows rows(part);
+      add({range, rows.padded_rows(), {}, std::move(rows)});
     }
   }
 }
@@ -33,9 +33,13 @@ void BlockOperator::add_dense(const BlockRange& range, const MatrixX& matrix) {
   for (int j = 0; j < range.size(); ++j) {
     std::copy_n(matrix.col(j).data(), range.size(), block.dense.data() + static_cast<std::ptrdiff_t>(j) * block.padded_rows);
   }
+  add(std::move(block));
+}
+
+void BlockOperator::add(Block block) {
   padded_.resize(std::max(padded_.size(), static_cast<std::size_t>(block.padded_rows)));
   padded2_.resize(padded_.size());
-  size_ = std::max(size_, range.last);
+  size_ = std::max(size_, block.range.last);
   blocks_.push_back(std::move(block));
 }
 
@@ -43,12 +47,13 @@ void BlockOperator::multiply(const VectorX& x, VectorX& y) const {
   y.resize(x.size());
   for (const Block& block : blocks_) {
     const BlockRange& range = block.range;
+    const double* const from = x.data() + range.first;
     if (block.dense.empty()) {
-      y.segment(range.first, range.size()).noalias() = block.sparse * x.segment(range.first, range.size());
+      block.sparse.multiply(from, padded_.data());
     } else {
-      dense_multiply(block.dense.data(), block.padded_rows, range.size(), x.data() + range.first, padded_.data());
-      std::copy_n(padded_.data(), range.size(), y.data() + range.first);
+      dense_multiply(block.dense.data(), block.padded_rows, range.size(), from, padded_.data());
     }
+    std::copy_n(padded_.data(), range.size(), y.data() + range.first);
   }
 }
 
@@ -57,15 +62,15 @@ void BlockOperator::multiply(const VectorX& x, const VectorX& x2, VectorX& y, Ve
   y2.resize(x2.size());
   for (const Block& block : blocks_) {
     const BlockRange& range = block.range;
+    const double *const from = x.data() + range.first, *const from2 = x2.data() + range.first;
     if (block.dense.empty()) {
-      y.segment(range.first, range.size()).noalias() = block.sparse * x.segment(range.first, range.size());
-      y2.segment(range.first, range.size()).noalias() = block.sparse * x2.segment(range.first, range.size());
+      block.sparse.multiply(from, padded_.data());
+      block.sparse.multiply(from2, padded2_.data());
     } else {
-      dense_multiply(block.dense.data(), block.padded_rows, range.size(), x.data() + range.first, x2.data() + range.first, padded_.data(),
-                     padded2_.data());
-      std::copy_n(padded_.data(), range.size(), y.data() + range.first);
-      std::copy_n(padded2_.data(), range.size(), y2.data() + range.first);
+      dense_multiply(block.dense.data(), block.padded_rows, range.size(), from, from2, padded_.data(), padded2_.data());
     }
+    std::copy_n(padded_.data(), range.size(), y.data() + range.first);
+    std::copy_n(padded2_.data(), range.size(), y2.data() + range.first);
   }
 }
 

@@ -1,9 +1,9 @@
-// A block-diagonal matrix, one block a connected structure: small blocks dense (SIMD), large ones sparse.
+// A block-diagonal matrix, one block a connected structure: small blocks dense, large ones in chunks of rows, all by SIMD.
 #pragma once
 
 #include <vector>
 
-#include "base/types.hpp"
+#include "base/chunked_rows.hpp"
 
 namespace nsframe {
 
@@ -13,7 +13,7 @@ struct BlockRange {
   int size() const { return last - first; }
 };
 
-inline constexpr int dense_block_limit = 512;  // rows up to which a stiffness matrix is best kept dense
+inline constexpr int dense_block_limit = 96;  // rows up to which a stiffness matrix is best kept dense
 
 class BlockOperator {
  public:
@@ -34,8 +34,9 @@ class BlockOperator {
     BlockRange range;
     int padded_rows = 0;
     std::vector<double> dense;  // column-major, padded_rows x size; empty when sparse
-    SparseRows sparse;
+    ChunkedRows sparse;
   };
+  void add(Block block);
   void add_dense(const BlockRange& range, const MatrixX& matrix);
   int size_ = 0;
   std::vector<Block> blocks_;

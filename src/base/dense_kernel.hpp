@@ -1,4 +1,4 @@
-// y = A x for a small dense matrix, by the widest SIMD the machine has (Highway, chosen at run time).
+// Products of small dense matrices and of chunks of four rows, by the widest SIMD the machine has (Highway, chosen at run time).
 #pragma once
 
 namespace nsframe {
@@ -9,5 +9,9 @@ inline constexpr int dense_row_padding = 8;  // rows of A are padded to a multip
 void dense_multiply(const double* A, int rows, int columns, const double* x, double* y);
 // y = A x and y2 = A x2 in one pass over A.
 void dense_multiply(const double* A, int rows, int columns, const double* x, const double* x2, double* y, double* y2);
+
+// Chunk after chunk, from the last on where `backward`: y of its four rows = sum over its columns of four values times x[column]
+// (chunked_rows.hpp). x and y may be the same: a chunk then reads what those before it have written.
+void apply_chunks(int chunks, bool backward, const int* begin, const int* columns, const double* values, const double* x, double* y);
 
 }  // namespace nsframe

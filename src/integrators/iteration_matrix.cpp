@@ -10,8 +10,8 @@ namespace nsframe {
 
 namespace {
 
-// Solves from which on an inverse, about as dear as sixty of them, has paid for itself.
-constexpr int solves_before_inverse = 40;
+// Solves from which on an inverse, about as dear as sixty of them, or chunks of sparse factors, as dear as thirty, have paid for themselves.
+constexpr int solves_before_speed_up = 40;
 // Responses of so many pairs take as long to add up as a solution with sparse factors.
 constexpr int pairs_before_solution = 24;
 
@@ -19,13 +19,12 @@ constexpr int pairs_before_solution = 24;
 
 IterationMatrix::IterationMatrix(const System& system, IterationMatrixOptions options)
     : symmetric_(system.assembler.symmetric()), linear_(system.linear()) {
-  invertible_ = true;
   for (const BlockRange& range : system.assembler.blocks()) {
     if (range.size() == 0) continue;
     Block& block = blocks_.emplace_back();
     block.range = range;
     block.dense = range.size() <= options.dense_limit;
-    invertible_ = invertible_ && block.dense;
+    all_dense_ = all_dense_ && block.dense;
   }
 }
 
@@ -57,20 +56,24 @@ void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness
       throw ConvergenceError(fmt::format("structure '{}': {}", system.model.structures[structure - 1].name, problem.what()));
     }
   }
-  if (invertible_ && linear_) invert();
+  if (linear_) speed_up();
   a_ = a;
 }
 
-void IterationMatrix::invert() {
+void IterationMatrix::speed_up() {
   std::vector<MatrixX> inverses;
   std::vector<BlockRange> ranges;
-  for (const Block& block : blocks_) {
-    const MatrixX identity = MatrixX::Identity(block.range.size(), block.range.size());
-    inverses.push_back(block.use_lu ? MatrixX(block.lu.solve(identity)) : MatrixX(block.cholesky.solve(identity)));
-    ranges.push_back(block.range);
+  for (Block& block : blocks_) {
+    if (block.dense) {
+      const MatrixX identity = MatrixX::Identity(block.range.size(), block.range.size());
+      inverses.push_back(block.use_lu ? MatrixX(block.lu.solve(identity)) : MatrixX(block.cholesky.solve(identity)));
+      ranges.push_back(block.range);
+    } else if (const auto* factor = std::get_if<0>(&block.sparse)) {
+      block.chunked = std::make_unique<ChunkedFactor>(**factor);
+    }
   }
   inverse_ = BlockOperator(inverses, ranges);
-  solves_ = solves_before_inverse;
+  solves_ = solves_before_speed_up;
 }
 
 void IterationMatrix::save(Snapshot& snapshot) const {
@@ -93,7 +96,7 @@ void IterationMatrix::restore(System& system, const Snapshot& snapshot) {
     }
     factor(system, stiffness, a);
     solves_ = static_cast<int>(snapshot.number("iteration_matrix.solves"));
-    if (solves_ >= solves_before_inverse) invert();
+    if (solves_ >= solves_before_speed_up) speed_up();
   }
   factorizations_ = static_cast<long>(snapshot.number("iteration_matrix.factorizations"));
 }
@@ -112,6 +115,7 @@ void IterationMatrix::factor_dense(Block& block, MatrixX J) const {
 
 void IterationMatrix::factor_sparse(Block& block, const SparseMatrix& J, double a) const {
   bool done = false;
+  block.chunked.reset();
   if (symmetric_) {
     using Factor = Eigen::SimplicialLDLT<SparseMatrix>;
     if (!block.analyzed) {
@@ -141,17 +145,22 @@ void IterationMatrix::solve_sparse(const Block& block, const MatrixX& rhs, Matri
   std::visit([&](const auto& factor) { x = factor->solve(rhs); }, block.sparse);
 }
 
+void IterationMatrix::add_modal_damping(const Block& block, VectorX& solution) {
+  if (block.modal->cols() == 0) return;
+  const VectorX coefficients = block.woodbury.solve(block.modal->transpose() * solution);
+  solution.noalias() -= block.woodbury_response * coefficients;
+}
+
 void IterationMatrix::solve(const VectorX& rhs, VectorX& x) {
-  if (invertible_ && solves_ < solves_before_inverse && ++solves_ == solves_before_inverse) invert();
-  if (invertible_ && solves_ >= solves_before_inverse) {
-    inverse_.multiply(rhs, x);
-    return;
-  }
+  if (solves_ < solves_before_speed_up && ++solves_ == solves_before_speed_up) speed_up();
+  const bool fast = solves_ >= solves_before_speed_up;
   x.resize(rhs.size());
+  if (fast) inverse_.multiply(rhs, x);
   for (const Block& block : blocks_) {
     const auto part = rhs.segment(block.range.first, block.range.size());
     auto result = x.segment(block.range.first, block.range.size());
     if (block.dense) {
+      if (fast) continue;
       if (block.use_lu) {
         result = block.lu.solve(part);
       } else {
@@ -159,13 +168,16 @@ void IterationMatrix::solve(const VectorX& rhs, VectorX& x) {
       }
       continue;
     }
-    MatrixX solution;
-    solve_sparse(block, part, solution);
-    if (block.modal->cols() > 0) {
-      const VectorX coefficients = block.woodbury.solve(block.modal->transpose() * solution.col(0));
-      solution.col(0).noalias() -= block.woodbury_response * coefficients;
+    if (block.chunked) {
+      part_.resize(part.size());
+      block.chunked->solve(part.data(), part_.data());
+    } else {
+      MatrixX solution;
+      solve_sparse(block, part, solution);
+      part_ = solution.col(0);
     }
-    result = solution.col(0);
+    add_modal_damping(block, part_);
+    result = part_;
   }
 }
 
@@ -185,7 +197,7 @@ const VectorX& IterationMatrix::tangent_response(const Contacts& contacts, int r
 }
 
 void IterationMatrix::respond(const Contacts& contacts, const std::vector<int>& pairs, const VectorX& p, VectorX& x) {
-  if (!invertible_ && (p.array() != 0).count() > pairs_before_solution) {
+  if (!all_dense_ && (p.array() != 0).count() > pairs_before_solution) {
     VectorX load = VectorX::Zero(contacts.jacobian.cols());
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const double force = p[static_cast<Eigen::Index>(k)];

@@ -1,12 +1,14 @@
 // J = M + a C + a^2 K with a = theta h (theory.md, eq. 9), factored block by block, one block a connected structure.
 // Small structures: dense, with an explicit inverse once the factors have served so often that it pays. Large
-// ones: sparse, with the low-rank modal damping added by the Woodbury identity so that J keeps the pattern of K.
+// ones: sparse, with the low-rank modal damping added by the Woodbury identity so that J keeps the pattern of K; their factors, too, are put
+// in a faster form once they have served often.
 #pragma once
 
 #include <memory>
 #include <variant>
 
 #include "assembly/system.hpp"
+#include "base/chunked_rows.hpp"
 #include "base/decompositions.hpp"
 #include "models/snapshot.hpp"
 
@@ -48,15 +50,18 @@ class IterationMatrix {
     Eigen::PartialPivLU<MatrixX> lu;
     bool use_lu = false;
     SparseFactor sparse;
+    std::unique_ptr<ChunkedFactor> chunked;  // the same, once it has served often
     bool analyzed = false;
     MatrixX woodbury_response;              // J0^-1 U
     Eigen::PartialPivLU<MatrixX> woodbury;  // I/a + U' J0^-1 U
     const MatrixX* modal = nullptr;
   };
-  void invert();
+  // Brings the factors in the form that solves fastest.
+  void speed_up();
   void factor_dense(Block& block, MatrixX J) const;
   void factor_sparse(Block& block, const SparseMatrix& J, double a) const;
   static void solve_sparse(const Block& block, const MatrixX& rhs, MatrixX& x);
+  static void add_modal_damping(const Block& block, VectorX& solution);
 
   bool symmetric_, linear_;
   double a_ = -1;
@@ -64,8 +69,9 @@ class IterationMatrix {
   std::vector<double> stiffness_;         // entries of the factored one, in the order of Assembler::tangent()
   std::vector<double> damping_;           // entries of Damping::tangent in the factored one
   std::vector<Block> blocks_;
-  BlockOperator inverse_;
-  bool invertible_ = false;               // all blocks are dense
+  BlockOperator inverse_;                 // of the dense blocks
+  bool all_dense_ = true;
+  VectorX part_;                          // of a solution
   int solves_ = 0;                        // since the last factorization
   std::vector<VectorX> responses_, tangent_responses_;
 };
