@@ -17,7 +17,7 @@
 #include "motion/history.hpp"
 #include "motion/write_at2.hpp"
 #include "output/files.hpp"
-#include "study/chart.hpp"
+#include "plot/picture.hpp"
 
 namespace nsframe::app {
 
@@ -253,7 +253,7 @@ int plot(const MotionArguments& a) {
     charts[1].curves.push_back({name, time, history.velocity, false, false});
     charts[2].curves.push_back({name, time, history.displacement, false, false});
   }
-  write_text_file(a.output, chart_svg(charts));
+  write_text_file(a.output, picture(a.output, charts));
   fmt::print("{}\n", a.output.string());
   return done;
 }
@@ -340,7 +340,7 @@ void add_motion_command(CLI::App& program, std::function<int()>& command) {
   {
     const auto [c, a] = add("plot", "acceleration, velocity and displacement as SVG", plot);
     add_record_options(*c, a->record, 1, 7);
-    add_output(c, *a, "file to write, .svg");
+    add_output(c, *a, "file to write, .svg or .png");
   }
 }
 

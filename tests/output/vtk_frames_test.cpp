@@ -390,6 +390,13 @@ TEST_CASE("the scale of the ParaView script makes the largest displacement visib
   CHECK(scale * 0.01 < 0.08 * 8.6);
 }
 
+TEST_CASE("the ParaView script draws gaps as much wider as displacements larger") {
+  const std::string script = paraview_script(sample_pair(), {5, 0.01, 0});  // gaps of 5 and 5.5 cm, on the mean 4 times 5.25 cm wider
+  CHECK(script.find("(\"left\", [0, 0, 0], [0.105, 0, 0])") != std::string::npos);
+  CHECK(script.find("(\"right\", [0.21, 0, 0], [0.21, 0, 0])") != std::string::npos);
+  CHECK(paraview_script(sample_pair(), {1, 0.01, 0}).find("(\"right\", [0, 0, 0], [0, 0, 0])") != std::string::npos);
+}
+
 TEST_CASE("the ParaView script is valid Python that names the frames and starts at the largest displacement") {
   const TemporaryFolder folder;
   const Model model = sample_pair();
