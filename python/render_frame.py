@@ -293,7 +293,8 @@ def gif_palette():
     viridis = np.array([pv.LookupTable("viridis").map_value(step)[:3] for step in steps])
     greys = np.linspace(0, 1, 24)[:, None] * np.ones(3)
     mark = np.array([int(MARK[k:k + 2], 16) for k in (1, 3, 5)]) / 255
-    colors = np.concatenate([viridis, 0.75 * viridis, 0.55 * viridis + 0.45, greys, [mark, 0.75 * mark, 0.5 * mark + 0.5]])
+    slabs = [0.55 * shade * viridis + 0.45 for shade in (1, 0.85, 0.7)]
+    colors = np.concatenate([viridis, 0.75 * viridis, *slabs, greys, [mark, 0.75 * mark, 0.5 * mark + 0.5]])
     palette = Image.new("P", (1, 1))
     palette.putpalette(np.rint(255 * colors).astype(np.uint8).ravel().tolist())
     return palette

@@ -71,7 +71,7 @@ int plot(const PlotArguments& a) {
   if (!a.labels.empty() && a.compare.empty()) throw InputError("error: --labels name the runs of --compare, which is missing");
   if (!a.nodes.empty() && !a.floors.empty()) throw InputError("error: give one of --nodes and --floors");
   const std::filesystem::path target = a.output.empty() ? a.folder / "plot.svg" : a.output;
-  FigureChoice choice{a.quantities, a.sections, {a.nodes, a.floors, direction_of(a.direction), static_cast<std::size_t>(a.width)}};
+  FigureChoice choice{a.quantities, a.sections, {a.nodes, a.floors, direction_of(a.direction), static_cast<std::size_t>(a.width), true}};
   if (!a.sections.empty() && std::find(a.quantities.begin(), a.quantities.end(), "hysteresis") == a.quantities.end())
     throw InputError("error: --sections are drawn by --quantity hysteresis");
   try {

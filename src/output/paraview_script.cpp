@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+
+#include "output/gap_offsets.hpp"
 
 namespace nsframe {
 namespace {
@@ -137,43 +138,23 @@ struct Offsets {
   std::vector<Vector3> structure, contacts;
 };
 
-Offsets gap_offsets(const Model& model, double scale) {
-  struct Step {
-    int from, to;
-    Vector3 widening;
-  };
-  const Vector3 zero = Vector3::Zero();
-  Offsets offsets{std::vector<Vector3>(model.structures.size(), zero), std::vector<Vector3>(model.structures.size(), zero)};
-  std::vector<Step> steps;
-  std::map<std::pair<int, int>, int> counts;
+Offsets widened_gaps(const Model& model, double scale) {
+  std::vector<StructureGap> gaps;
   const auto structure_of = [&](const ContactPoint& point) { return model.nodes.structure[static_cast<std::size_t>(point.first_node())]; };
+  std::vector<Vector3> across(model.structures.size(), Vector3::Zero());
+  std::vector<int> pairs(model.structures.size(), 0);
   for (int pair = 0; pair < model.contacts.size(); ++pair) {
     const ContactPair& contact = model.contacts.pairs[static_cast<std::size_t>(pair)];
     if (contact.a.fixed() || contact.b.fixed()) continue;
-    const Step step{structure_of(contact.a), structure_of(contact.b), (scale - 1) * model.contacts.initial_gap[pair] * contact.normal};
-    if (step.from == step.to) continue;
-    ++counts[{step.from, step.to}];
-    steps.push_back(step);
+    gaps.push_back({structure_of(contact.a), structure_of(contact.b), model.contacts.initial_gap[pair] * contact.normal});
+    across[static_cast<std::size_t>(gaps.back().from)] += gaps.back().gap;
+    ++pairs[static_cast<std::size_t>(gaps.back().from)];
   }
-  std::map<std::pair<int, int>, Vector3> mean;
-  for (const Step& step : steps) mean.try_emplace({step.from, step.to}, zero).first->second += step.widening / counts[{step.from, step.to}];
-  std::vector<bool> known(model.structures.size(), false);
-  for (std::size_t start = 0; start < known.size(); ++start) {
-    if (known[start]) continue;
-    known[start] = true;
-    for (bool found = true; found;) {  // along the row of neighbours
-      found = false;
-      for (const auto& [between, widening] : mean) {
-        const auto a = static_cast<std::size_t>(between.first), b = static_cast<std::size_t>(between.second);
-        if (known[a] == known[b]) continue;
-        const std::size_t next = known[a] ? b : a;
-        offsets.structure[next] = known[a] ? Vector3(offsets.structure[a] + widening) : Vector3(offsets.structure[b] - widening);
-        known[next] = found = true;
-      }
-    }
+  Offsets offsets{gap_offsets(model.structures.size(), gaps), {}};
+  for (std::size_t s = 0; s < across.size(); ++s) {
+    offsets.structure[s] *= scale - 1;
+    offsets.contacts.push_back(offsets.structure[s] + 0.5 * (scale - 1) / std::max(1, pairs[s]) * across[s]);
   }
-  offsets.contacts = offsets.structure;
-  for (const auto& [between, widening] : mean) offsets.contacts[static_cast<std::size_t>(between.first)] += 0.5 * widening;
   return offsets;
 }
 
@@ -188,7 +169,7 @@ std::string quoted(const std::string& text) {
 }
 
 std::string structures_text(const Model& model, double scale) {
-  const Offsets offsets = gap_offsets(model, scale);
+  const Offsets offsets = widened_gaps(model, scale);
   const auto list = [](const Vector3& v) { return fmt::format("[{:.4g}, {:.4g}, {:.4g}]", v.x(), v.y(), v.z()); };
   std::string text;
   for (std::size_t s = 0; s < model.structures.size(); ++s)

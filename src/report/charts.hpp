@@ -25,6 +25,7 @@ struct ChartChoice {
   std::vector<std::string> floors;  // "left.2": the floor above story 2; empty: the roof and others below it
   int direction = -1;               // 0, 1, 2: x, y, z only, however small; -1: those that are not negligible
   std::size_t parts = 700;          // of a history: its least and largest value of each is drawn
+  bool zeros = false;               // a chart also where nothing moves
 };
 
 RunChart chart_over_time(std::string title, const std::string& quantity, const std::string& unit, double factor);

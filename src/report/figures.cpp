@@ -101,7 +101,7 @@ std::string missing(const Figure& figure, const RunFolder& run, const FigureChoi
                         : figure.kept_by == std::string("history = [\"nodes\"]") ? run.results.has("/nodes/id") : false;
   if (recorded && choice.charts.direction >= 0)
     return fmt::format("error: no {} along {} in these results", name, "xyz"[choice.charts.direction]);
-  if (recorded) return fmt::format("error: {} is zero in this run, or the results have no floors for it", name);
+  if (recorded) return fmt::format("error: these results have no floors for {}: the nodes of two must be in output.nodes", name);
   return fmt::format("error: no {} in these results: {} in [output] keeps it", name, figure.kept_by);
 }
 

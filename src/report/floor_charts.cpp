@@ -153,7 +153,9 @@ class FloorReader {
   }
 
   bool matters(const Panel& panel, double largest) const {
-    if (choice_.direction >= 0 && panel.chart.direction >= 0) return panel.chart.direction == choice_.direction && !panel.tracks.empty();
+    if (panel.tracks.empty()) return false;
+    if (choice_.direction >= 0 && panel.chart.direction >= 0) return panel.chart.direction == choice_.direction;
+    if (panel.chart.direction < 0 && choice_.zeros) return true;
     return panel.largest() > largest * (panel.chart.direction == 2 ? vertical_matters : negligible) && panel.largest() >= 1e-12;
   }
 
@@ -162,22 +164,26 @@ class FloorReader {
     for (const Panel& panel : panels) largest = std::max(largest, panel.largest());
     std::vector<RunChart> charts;
     for (Panel& panel : panels) {
-      if (!matters(panel, largest)) continue;
-      RunChart chart = std::move(panel.chart);
-      for (Track& track : panel.tracks) {
-        const Place& place = places_[track.place];
-        Curve curve = curve_of(place);
-        curve.y = track.thinner.values();
-        if (panel.between) {
-          curve.name = fmt::format("{}, {:g} to {:g} m", run_.model.structures[static_cast<std::size_t>(place.structure)],
-                                   places_[static_cast<std::size_t>(place.below)].level, place.level);
-        }
-        for (const std::size_t row : track.thinner.rows()) curve.x.push_back(run_.time[row]);
-        chart.curves.push_back(std::move(curve));
-      }
-      charts.push_back(std::move(chart));
+      if (matters(panel, largest)) charts.push_back(chart(panel));
     }
+    if (charts.empty() && choice_.zeros && choice_.direction < 0 && !panels.front().tracks.empty()) charts.push_back(chart(panels.front()));
     return charts;
+  }
+
+  RunChart chart(Panel& panel) const {
+    RunChart chart = std::move(panel.chart);
+    for (Track& track : panel.tracks) {
+      const Place& place = places_[track.place];
+      Curve curve = curve_of(place);
+      curve.y = track.thinner.values();
+      if (panel.between) {
+        curve.name = fmt::format("{}, {:g} to {:g} m", run_.model.structures[static_cast<std::size_t>(place.structure)],
+                                 places_[static_cast<std::size_t>(place.below)].level, place.level);
+      }
+      for (const std::size_t row : track.thinner.rows()) curve.x.push_back(run_.time[row]);
+      chart.curves.push_back(std::move(curve));
+    }
+    return chart;
   }
 
   std::vector<RunChart> orbit(std::vector<Curve>& orbits) const {

@@ -66,10 +66,15 @@ DrawnModel read_model(const Hdf5Reader& results) {
   const std::vector<double> levels = results.numbers("/model/floors/level");
   auto nodes = ragged(results.integers("/model/floors/node"), results.integers("/model/floors/first"));
   for (std::size_t i = 0; i < levels.size(); ++i) model.floors.push_back({structures[i], levels[i], std::move(nodes[i])});
-  const std::vector<double> positions = results.numbers("/model/pairs/position");
+  const std::vector<double> positions = results.numbers("/model/pairs/position"), normals = results.numbers("/model/pairs/normal");
+  std::vector<double> gaps(positions.size() / 3, 0);
+  if (results.has("/model/pairs/gap")) gaps = results.numbers("/model/pairs/gap");
   const std::vector<int> sides = results.integers("/model/pairs/structures");
   for (std::size_t i = 0; 3 * i < positions.size(); ++i) {
-    model.pairs.push_back({{positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]}, {sides[2 * i], sides[2 * i + 1]}});
+    model.pairs.push_back({{positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]},
+                           {normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]},
+                           gaps[i],
+                           {sides[2 * i], sides[2 * i + 1]}});
   }
   return model;
 }

@@ -24,7 +24,9 @@ struct DrawnModel {
     std::vector<int> nodes;
   };
   struct Pair {
-    double position[3];  // [m]
+    double position[3];  // [m]; of the structure's side where the other is a wall
+    double normal[3];
+    double gap;          // at rest without loads [m]
     int structures[2];   // -1: a wall
   };
 

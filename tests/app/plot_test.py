@@ -227,6 +227,10 @@ class PlotTest(unittest.TestCase):
         self.refused("did you mean 'left.", "--quantity", "hysteresis", "--sections", "lft.1", folder=folder)
         self.refused("number of an integration point", "--quantity", "hysteresis", "--sections", "left.1:a", folder=folder)
 
+    def test_what_does_not_move_is_drawn_as_a_line_at_zero(self):
+        (panel,), _ = self.plot("--quantity", "twist", "--nodes", "left.25", folder=self.quiet())
+        self.assertLess(panel.peak(0), 0.01)  # mrad: nothing has pounded yet, so nothing twists
+
     def test_static_stages(self):
         folder = pathlib.Path(self.held.name) / "push"
         summary = run(folder, "pushover")

@@ -116,6 +116,23 @@ class PageTest(unittest.TestCase):
         for node in (node for member in view["members"] for node in member["nodes"]):
             self.assertLess(node, self.summary["nodes"])
 
+    def test_gaps_are_widened_by_their_mean_and_a_wall_stands_where_the_scene_says(self):
+        self.assertEqual(self.data["view"]["walls"], [])
+        left, right = self.data["view"]["offsets"]  # gaps of 5 and 5.5 cm
+        self.assertEqual(left, [0, 0, 0])
+        self.assertAlmostEqual(right[0], 0.0525, places=9)
+        with tempfile.TemporaryDirectory() as folder:
+            _, data, summary = make(folder, "stick_slip", "analysis.duration=0.2")
+            (wall,) = data["view"]["walls"]
+            for corner in wall["corners"]:
+                self.assertAlmostEqual(corner[0], 10.04, places=9)
+            for found, known in zip(wall["across"], (0.03, 0, 0)):
+                self.assertAlmostEqual(found, known, places=9)
+            self.assertEqual(wall["structure"], 1)
+            self.assertEqual(sorted({corner[2] for corner in wall["corners"]})[0], 0)
+            self.assertTrue(min(c[1] for c in wall["corners"]) < 0 and max(c[1] for c in wall["corners"]) > 4)
+            self.assertEqual(len(summary["warnings"]), len(set(summary["warnings"])))
+
     def test_title_cannot_break_the_page(self):
         with tempfile.TemporaryDirectory() as folder:
             title = "</script><script>alert(1)</script> & <b>"
