@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Render one frame of an nsframe run to a PNG, without a display.
+"""Render one frame of an nsframe run to a PNG, or a stretch of time to an animated GIF, without a display.
 
     render_frame.py RUN_FOLDER -o frame.png [--time 4.2] [--scale 20] [--torsion 100]
+    render_frame.py RUN_FOLDER -o motion.gif --from 5 --to 7 [--speed 0.25]
 
 Reads frames.pvd, and summary.json if it is there. Needs pyvista (and Pillow, which comes with it).
 """
@@ -16,6 +17,7 @@ from PIL import Image
 
 CONTACT, SLAB = 0, 1  # codes of the cell field "kind"
 MARK = "#d55e00"      # vermilion of the Okabe-Ito palette
+MARK_FRAMES = 5       # of an animation that show a contact after it was hit
 
 
 def parse():
@@ -33,6 +35,9 @@ def parse():
     parser.add_argument("--view", type=float, nargs=3, default=(0.45, -1.0, 0.32), metavar=("X", "Y", "Z"),
                         help="direction from the model to the camera")
     parser.add_argument("--title", help="default: the run's title")
+    parser.add_argument("--from", dest="start", type=float, help="of an animation [s]; default: the first frame")
+    parser.add_argument("--to", dest="end", type=float, help="of an animation [s]; default: the last frame")
+    parser.add_argument("--speed", type=float, default=0.25, help="of an animation: 1 is true time; default: 0.25")
     return parser.parse_args()
 
 
@@ -186,10 +191,10 @@ def surface_of(mesh):
     return mesh.extract_surface(algorithm="dataset_surface")
 
 
-def add_structures(plotter, reference, deformed, field):
+def add_structures(plotter, reference, deformed, field, highest=None):
     name, label = colors_of(field, deformed)
     kind = deformed.cell_data["kind"]
-    highest = float(np.max(deformed[name], initial=0)) or 1.0
+    highest = highest or float(np.max(deformed[name], initial=0)) or 1.0
     style = dict(scalars=name, cmap="viridis", clim=(0, highest), show_scalar_bar=False)
     plain = dict(color="#c8ccd0") if field == "peak_strain_ratio" else style  # of elastic members, slabs
     measured = deformed.cell_data[name] > 0 if field == "peak_strain_ratio" else np.full(deformed.n_cells, True)
@@ -248,14 +253,8 @@ def add_axes(plotter, mesh):
                         fmt="%g", use_3d_text=False)
 
 
-def main():
-    arguments = parse()
-    summary_file = arguments.run / "summary.json"
-    summary = json.loads(summary_file.read_text()) if summary_file.exists() else {}
-    reader, times = read_frames(arguments.run)
-    index = choose_frame(arguments, reader, times, summary)
-    mesh = read_frame(reader, index)
-    scale = arguments.scale or visible_scale(mesh)
+def draw(arguments, summary, mesh, time, scale, highest=None, still=False):
+    """The picture of one frame. `highest`: the end of the colour bar, in its unit; `still`: the camera looks at the model at rest."""
     scale_gaps = scale != 1 and not arguments.true_gaps
     if scale_gaps:
         mesh.points = draw_apart(mesh, structure_offsets(mesh, scale))
@@ -264,10 +263,9 @@ def main():
     if arguments.torsion:
         deformed.points += added_torsion(mesh, arguments.torsion - scale)
 
-    pv.OFF_SCREEN = True
     plotter = pv.Plotter(off_screen=True, window_size=list(arguments.size), lighting="light kit")
     plotter.set_background("white")
-    add_structures(plotter, mesh, deformed, arguments.field)
+    add_structures(plotter, mesh, deformed, arguments.field, highest)
     hits = add_contacts(plotter, deformed, mesh.length)
 
     add_axes(plotter, mesh)
@@ -276,15 +274,68 @@ def main():
     marks = f",  {hits} contact{'s' if hits != 1 else ''} hit (marked)" if hits else ""
     gaps = " and gaps" if scale_gaps else ""
     torsion = f", torsion x {arguments.torsion:g}" if arguments.torsion else ""
-    plotter.add_text(f"t = {times[index]:.3f} s,  displacements{gaps} x {scale:g}{torsion}{marks}", position=(0.03, 0.905),
+    plotter.add_text(f"t = {time:.3f} s,  displacements{gaps} x {scale:g}{torsion}{marks}", position=(0.03, 0.905),
                      viewport=True, font_size=text_size(plotter, 14), color="#333333")
     center = np.array(mesh.center)
     plotter.camera_position = [center + 3 * mesh.length * np.array(arguments.view), center, (0, 0, 1)]
-    plotter.reset_camera()
-    plotter.camera.zoom(1.14)
+    plotter.reset_camera(bounds=mesh.bounds if still else None)
+    plotter.camera.zoom(1.06 if still else 1.14)
     plotter.camera.SetWindowCenter(0.06, 0.01)  # the title is above, the colour bar at the right
     plotter.enable_anti_aliasing("ssaa")
-    Image.fromarray(plotter.screenshot(return_img=True)).save(arguments.output, optimize=True)
+    picture = Image.fromarray(plotter.screenshot(return_img=True))
+    plotter.close()
+    return picture
+
+
+def gif_palette():
+    """Viridis lit, in shade and through a slab, greys and the mark's colour: one palette for all frames, so that none flickers."""
+    steps = np.linspace(0, 1, 36)
+    viridis = np.array([pv.LookupTable("viridis").map_value(step)[:3] for step in steps])
+    greys = np.linspace(0, 1, 24)[:, None] * np.ones(3)
+    mark = np.array([int(MARK[k:k + 2], 16) for k in (1, 3, 5)]) / 255
+    slabs = [0.55 * shade * viridis + 0.45 for shade in (1, 0.85, 0.7)]
+    colors = np.concatenate([viridis, 0.75 * viridis, *slabs, greys, [mark, 0.75 * mark, 0.5 * mark + 0.5]])
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(np.rint(255 * colors).astype(np.uint8).ravel().tolist())
+    return palette
+
+
+def animate(arguments, summary, reader, times):
+    """The frames from --from to --to, each for the time to the next over the speed; marks stay for some frames."""
+    start = times[0] if arguments.start is None else arguments.start
+    end = times[-1] if arguments.end is None else arguments.end
+    chosen = np.flatnonzero((times >= start - 1e-9) & (times <= end + 1e-9))
+    if len(chosen) < 2:
+        raise SystemExit(f"there are {len(chosen)} frames from {start:g} to {end:g} s, of {times[0]:g} to {times[-1]:g} s")
+    meshes = [read_frame(reader, index) for index in chosen]
+    scale = arguments.scale or visible_scale(max(meshes, key=lambda mesh: np.abs(mesh["displacement"]).max()))
+    names = [colors_of(arguments.field, mesh)[0] for mesh in meshes]
+    highest = max(float(np.max(mesh[name], initial=0)) for name, mesh in zip(names, meshes))
+    impulses = [mesh.cell_data["impulse"].copy() for mesh in meshes]
+    pictures = []
+    for k, (index, mesh) in enumerate(zip(chosen, meshes)):
+        mesh.cell_data["impulse"] = np.max(impulses[max(0, k + 1 - MARK_FRAMES):k + 1], axis=0)
+        pictures.append(draw(arguments, summary, mesh, times[index], scale, highest, still=True))
+    frames = [picture.quantize(palette=gif_palette(), dither=Image.Dither.NONE) for picture in pictures]
+    milliseconds = np.diff(times[chosen], append=times[chosen[-1]] + times[1] - times[0]) * 1e3 / arguments.speed
+    frames[0].save(arguments.output, save_all=True, append_images=frames[1:], loop=0, optimize=True,
+                   duration=[int(round(value)) for value in milliseconds])
+    print(f"{arguments.output}: {len(frames)} frames, displacements x {scale:g}")
+
+
+def main():
+    arguments = parse()
+    summary_file = arguments.run / "summary.json"
+    summary = json.loads(summary_file.read_text()) if summary_file.exists() else {}
+    reader, times = read_frames(arguments.run)
+    pv.OFF_SCREEN = True
+    if arguments.output.suffix == ".gif":
+        animate(arguments, summary, reader, times)
+        return
+    index = choose_frame(arguments, reader, times, summary)
+    mesh = read_frame(reader, index)
+    scale = arguments.scale or visible_scale(mesh)
+    draw(arguments, summary, mesh, times[index], scale).save(arguments.output, optimize=True)
     print(f"{arguments.output}: t = {times[index]:.3f} s, displacements x {scale:g}")
 
 

@@ -4,7 +4,7 @@
     base <- materials <- elements <- models <- assembly <- integrators <- app
     contact: base, models/contacts.hpp, models/contact_law.hpp     modal: base     spectra: base     motion: base, spectra
     integrators: also contact     scene: base .. models, motion     output: base .. models, spectra     study: base .. models
-    report: base, output     app, tests, bench: anything
+    plot: base     study: also plot     report: base, output, plot     app, tests, bench: anything
 
 A test or a bench may also name a helper in its own folder without a path.
 
@@ -25,9 +25,10 @@ ALLOWED["modal"] = {"base", "modal"}
 ALLOWED["motion"] = {"base", "motion", "spectra"}
 ALLOWED["scene"] = set(CHAIN[:4]) | {"motion", "scene"}
 ALLOWED["spectra"] = {"base", "spectra"}
-ALLOWED["study"] = set(CHAIN[:4]) | {"study"}
+ALLOWED["plot"] = {"base", "plot"}
+ALLOWED["study"] = set(CHAIN[:4]) | {"plot", "study"}
 ALLOWED["output"] = set(CHAIN[:4]) | {"output", "spectra"}
-ALLOWED["report"] = {"base", "output", "report"}
+ALLOWED["report"] = {"base", "output", "plot", "report"}
 ANYTHING = {"app", "tests", "bench"}
 AT_ROOT = {"materials", "elements", "models", "tests", "bench"}  # the others are below src/
 FOLDERS = set(ALLOWED) | ANYTHING

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Installs the Debian 12 packages that are missing, or does nothing.
-#   tools/packages.sh [program] [tests] [bench]      groups of packages; default: program
+#   tools/packages.sh [program] [png] [tests] [bench]      groups of packages; default: program
 # Needs root only when something is missing: as root it installs directly, else through sudo after saying what.
 set -euo pipefail
 
 program=(build-essential cmake ninja-build pkg-config libeigen3-dev libspectra-dev libhdf5-dev libvtk9-dev
          libtomlplusplus-dev libcli11-dev libfmt-dev libspdlog-dev nlohmann-json3-dev libhwy-dev)
+png=(librsvg2-dev)  # nsframe plot writes PNG too
 tests=(doctest-dev librapidcheck-dev python3)
 bench=(libbenchmark-dev)
 
@@ -13,9 +14,10 @@ wanted=()
 for group in "${@:-program}"; do
   case "$group" in
     program) wanted+=("${program[@]}") ;;
+    png) wanted+=("${png[@]}") ;;
     tests) wanted+=("${tests[@]}") ;;
     bench) wanted+=("${bench[@]}") ;;
-    *) echo "packages.sh: unknown group '$group'; known: program tests bench" >&2; exit 2 ;;
+    *) echo "packages.sh: unknown group '$group'; known: program png tests bench" >&2; exit 2 ;;
   esac
 done
 

@@ -12,7 +12,7 @@ if [ ! -f "$scene" ]; then
   exit 2
 fi
 
-tools/packages.sh program
+tools/packages.sh program png
 echo "Building nsframe (build/) ..."
 # a first build is a whole one: several sources at once take a third of the time
 whole=(); [ -f build/CMakeCache.txt ] || whole=(-DNSFRAME_UNITY=ON)

@@ -6,6 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/motion.hpp"
+#include "app/plot.hpp"
 #include "app/report.hpp"
 #include "app/section.hpp"
 #include "app/study.hpp"
@@ -130,6 +131,7 @@ int program(int count, char** values) {
   add_spectrum_command(program, command);
   ReportArguments report_arguments;
   add_report_command(program, report_arguments, command);
+  add_plot_command(program, command);
   program.add_subcommand("reference", "print the scene reference (docs/scene-reference.md)")->callback([&] {
     command = reference;
   });

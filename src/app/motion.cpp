@@ -11,13 +11,14 @@
 
 #include "app/commands.hpp"
 #include "app/motion_input.hpp"
+#include "app/motion_measures.hpp"
 #include "base/errors.hpp"
 #include "motion/adjust.hpp"
 #include "motion/artificial.hpp"
 #include "motion/history.hpp"
 #include "motion/write_at2.hpp"
 #include "output/files.hpp"
-#include "study/chart.hpp"
+#include "plot/picture.hpp"
 
 namespace nsframe::app {
 
@@ -36,54 +37,12 @@ struct MotionArguments {
   bool json = false, keep_pads = false, rest = false;
 };
 
-const double g = in_si(AccelerationUnit::g);
-
 std::string csv_text(const Record& record) {
   std::string out = "time [s],acceleration [m/s2]\n";
   for (std::size_t i = 0; i < record.acceleration.size(); ++i)
     fmt::format_to(std::back_inserter(out), "{:.10g},{:.10g}\n", record.dt * static_cast<double>(i),
                    record.acceleration[i]);
   return out;
-}
-
-void print_measures(const Record& record) {
-  const MotionMeasures m = measure(record.acceleration, record.dt);
-  fmt::print("  {} values, dt {:g} s, {:g} s\n", record.acceleration.size(), record.dt,
-             record.dt * static_cast<double>(record.acceleration.size() - 1));
-  fmt::print("  {:<24} {:>12.5g} m/s2  at {:.3f} s  ({:.4f} g)\n", "PGA", m.acceleration.value, m.acceleration.time,
-             m.acceleration.value / g);
-  fmt::print("  {:<24} {:>12.5g} m/s   at {:.3f} s\n", "PGV", m.velocity.value, m.velocity.time);
-  fmt::print("  {:<24} {:>12.5g} m     at {:.3f} s\n", "PGD", m.displacement.value, m.displacement.time);
-  fmt::print("  {:<24} {:>12.5g} m/s\n", "Arias intensity", m.arias);
-  fmt::print("  {:<24} {:>12.5g} s     from {:.3f} to {:.3f} s\n", "duration D5-75", m.significant_75(), m.from_5,
-             m.to_75);
-  fmt::print("  {:<24} {:>12.5g} s     from {:.3f} to {:.3f} s\n", "duration D5-95", m.significant_95(), m.from_5,
-             m.to_95);
-  fmt::print("  {:<24} {:>12.5g} m/s, {:.5g} m\n", "at the end", m.final_velocity, m.final_displacement);
-}
-
-nlohmann::json measures_json(const Record& record, const std::string& file) {
-  const MotionMeasures m = measure(record.acceleration, record.dt);
-  return {{"file", file},
-          {"format", record.format},
-          {"description", record.description},
-          {"notes", record.notes},
-          {"samples", record.acceleration.size()},
-          {"dt", record.dt},
-          {"pga", m.acceleration.value},
-          {"pga_time", m.acceleration.time},
-          {"pgv", m.velocity.value},
-          {"pgv_time", m.velocity.time},
-          {"pgd", m.displacement.value},
-          {"pgd_time", m.displacement.time},
-          {"arias", m.arias},
-          {"t5", m.from_5},
-          {"t75", m.to_75},
-          {"t95", m.to_95},
-          {"d5_75", m.significant_75()},
-          {"d5_95", m.significant_95()},
-          {"final_velocity", m.final_velocity},
-          {"final_displacement", m.final_displacement}};
 }
 
 int info(const MotionArguments& a) {
@@ -253,7 +212,7 @@ int plot(const MotionArguments& a) {
     charts[1].curves.push_back({name, time, history.velocity, false, false});
     charts[2].curves.push_back({name, time, history.displacement, false, false});
   }
-  write_text_file(a.output, chart_svg(charts));
+  write_text_file(a.output, picture(a.output, charts));
   fmt::print("{}\n", a.output.string());
   return done;
 }
@@ -338,9 +297,9 @@ void add_motion_command(CLI::App& program, std::function<int()>& command) {
     c->add_option("--tolerance", a->tolerance, "largest difference from the target (default: 8 %)");
   }
   {
-    const auto [c, a] = add("plot", "acceleration, velocity and displacement as SVG", plot);
+    const auto [c, a] = add("plot", "acceleration, velocity and displacement as SVG or PNG", plot);
     add_record_options(*c, a->record, 1, 7);
-    add_output(c, *a, "file to write, .svg");
+    add_output(c, *a, "file to write, .svg or .png");
   }
 }
 

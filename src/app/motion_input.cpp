@@ -110,10 +110,10 @@ TargetSpectrum load_target(const TargetArguments& a) {
   }
 }
 
-double quantity(const std::string& option, const std::string& text, const Dimension& wanted) {
+double quantity(const std::string& option, const std::string& text, const Dimension& wanted, double bare) {
   try {
     const Quantity read = parse_quantity(text);
-    return read.dimension == dimension::none ? read.value : parse_quantity(text, wanted);
+    return read.dimension == dimension::none ? read.value * bare : parse_quantity(text, wanted);
   } catch (const QuantityError& problem) {
     throw InputError(fmt::format("error: {} = \"{}\"{}", option, text, problem.what()));
   }

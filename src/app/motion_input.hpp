@@ -33,8 +33,8 @@ struct TargetArguments {
 void add_target_options(CLI::App& command, TargetArguments& arguments, bool required);
 TargetSpectrum load_target(const TargetArguments& arguments);
 
-// The SI value of an option; bare numbers are SI. Throws InputError.
-double quantity(const std::string& option, const std::string& text, const Dimension& wanted);
+// The SI value of an option; bare numbers are in `bare` SI units. Throws InputError.
+double quantity(const std::string& option, const std::string& text, const Dimension& wanted, double bare = 1);
 // A ratio such as "5 %" or 0.05.
 double ratio(const std::string& option, const std::string& text);
 // "0.1,2" as two rising periods [s].

@@ -5,25 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/motion_input.hpp"
 #include "base/errors.hpp"
 #include "models/build_elements.hpp"
-#include "scene/quantity.hpp"
 
 namespace nsframe::app {
 
 namespace {
 
 constexpr Dimension curvature_dimension{-1, 0, 0, 1};
-
-// A quantity of the command line; bare numbers are in `bare` SI units.
-double quantity(const std::string& option, const std::string& text, const Dimension& wanted, double bare = 1) {
-  try {
-    const Quantity read = parse_quantity(text);
-    return read.dimension == dimension::none ? read.value * bare : parse_quantity(text, wanted);
-  } catch (const QuantityError& problem) {
-    throw InputError(fmt::format("error: {} = \"{}\"{}", option, text, problem.what()));
-  }
-}
 
 // The section with its laws; every fault of materials and sections is reported.
 AnalysedSection find_section(const SectionArguments& arguments) {

@@ -15,7 +15,7 @@
 #include "output/read_floor_spectra.hpp"
 #include "spectra/oscillators.hpp"
 #include "spectra/spectrum.hpp"
-#include "study/chart.hpp"
+#include "plot/chart.hpp"
 
 namespace nsframe::app {
 

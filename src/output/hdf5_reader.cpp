@@ -29,14 +29,16 @@ bool Hdf5Reader::has(const std::string& name) const {
   return H5Lexists(file_, name.c_str(), H5P_DEFAULT) > 0;
 }
 
-std::vector<std::string> Hdf5Reader::names() const {
+std::vector<std::string> Hdf5Reader::names() const { return names_in("/"); }
+
+std::vector<std::string> Hdf5Reader::names_in(const std::string& group) const {
   const QuietHdf5 quiet;
   std::vector<std::string> names;
   const auto add = [](hid_t, const char* name, const H5L_info_t*, void* list) {
     static_cast<std::vector<std::string>*>(list)->push_back(name);
     return herr_t{0};
   };
-  check(H5Literate(file_, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add, &names), "/");
+  check(H5Literate_by_name(file_, group.c_str(), H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, add, &names, H5P_DEFAULT), group);
   return names;
 }
 

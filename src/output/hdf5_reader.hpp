@@ -16,6 +16,7 @@ class Hdf5Reader {
   const std::filesystem::path& path() const { return path_; }
   bool has(const std::string& name) const;
   std::vector<std::string> names() const;  // of the objects below the root
+  std::vector<std::string> names_in(const std::string& group) const;
   std::vector<hsize_t> shape(const std::string& name) const;
   std::vector<double> numbers(const std::string& name) const;
   std::vector<int> integers(const std::string& name) const;

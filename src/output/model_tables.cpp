@@ -98,6 +98,9 @@ void write_pairs(Hdf5File& file, const Model& model) {
   file.write_numbers("/model/pairs/position", positions, {count, 3});
   file.set_attribute("/model/pairs/position", "units", "m");
   file.write_numbers("/model/pairs/normal", normals, {count, 3});
+  file.write_numbers("/model/pairs/gap", Doubles(model.contacts.initial_gap.begin(), model.contacts.initial_gap.end()));
+  file.set_attribute("/model/pairs/gap", "units", "m");
+  file.set_attribute("/model/pairs/gap", "description", "at rest without loads");
   file.write_numbers("/model/pairs/structures", structures, {count, 2});
 }
 

@@ -9,7 +9,6 @@ namespace nsframe {
 
 // What the script shows first.
 struct ParaviewView {
-  std::string title;
   double scale = 1;                 // of the displacements drawn; must make them visible against the size of the model
   double largest_displacement = 0;  // [m], the end of the colour scale; 0: not known yet
   double time = 0;                  // [s] of the frame shown first

@@ -279,7 +279,7 @@ void VtkFrames::Writer::write_collection() const {
 void VtkFrames::Writer::write_script() const {
   const double scale = amplification_ != 1 ? amplification_ : visible_scale(*model_, largest_displacement_);
   write_text_file(folder_ / "open_in_paraview.py",
-                  paraview_script(*model_, {"nsframe", scale, largest_displacement_, largest_time_}));
+                  paraview_script(*model_, {scale, largest_displacement_, largest_time_}));
 }
 
 VtkFrames::VtkFrames(std::filesystem::path folder, const OutputOptions& options)

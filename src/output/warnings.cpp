@@ -175,8 +175,11 @@ constexpr Rule rules[]{of_the_scheme,  of_light_contact_nodes, of_effective_rest
 }  // namespace
 
 std::vector<std::string> run_warnings(const Model& model, const Summary& summary) {
-  Sentences out;
-  for (const Rule rule : rules) rule(model, summary, out);
+  Sentences all, out;
+  for (const Rule rule : rules) rule(model, summary, all);
+  for (const std::string& sentence : all) {  // one record along x and y says the same twice
+    if (std::find(out.begin(), out.end(), sentence) == out.end()) out.push_back(sentence);
+  }
   return out;
 }
 

@@ -6,7 +6,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <set>
+#include <tuple>
+
+#include "output/gap_offsets.hpp"
 
 namespace nsframe {
 namespace {
@@ -128,6 +132,49 @@ Json pairs_json(const RunFolder& run) {
   return pairs;
 }
 
+Json offsets_json(const DrawnModel& model) {
+  std::vector<StructureGap> gaps;
+  for (const DrawnModel::Pair& pair : model.pairs)
+    gaps.push_back({pair.structures[0], pair.structures[1], pair.gap * Vector3(pair.normal[0], pair.normal[1], pair.normal[2])});
+  Json offsets = Json::array();
+  for (const Vector3& offset : gap_offsets(model.structures.size(), gaps)) offsets.push_back({offset.x(), offset.y(), offset.z()});
+  return offsets;
+}
+
+// Upright walls as rectangles from the lowest node to above the highest pair, wider than what may touch them, with the structure in
+// front and the vector across the gap. The ground isn't one.
+Json walls_json(const DrawnModel& model) {
+  struct Wall {
+    Vector3 normal = Vector3::Zero(), across = Vector3::Zero();
+    double plane = 0, left = 1e300, right = -1e300, top = -1e300;
+  };
+  std::map<std::tuple<int, long, long, long>, Wall> walls;  // by structure, direction and place in micrometres
+  for (const DrawnModel::Pair& pair : model.pairs) {
+    const Vector3 normal(pair.normal[0], pair.normal[1], pair.normal[2]), at(pair.position[0], pair.position[1], pair.position[2]);
+    if (pair.structures[1] >= 0 || std::abs(normal.z()) > 0.5) continue;
+    const double plane = normal.dot(at) + pair.gap, along = Vector3::UnitZ().cross(normal).dot(at);
+    const auto micro = [](double value) { return std::lround(1e6 * value); };
+    Wall& wall = walls[{pair.structures[0], micro(normal.x()), micro(normal.y()), micro(plane)}];
+    wall.normal = normal, wall.across = pair.gap * normal, wall.plane = plane;
+    wall.left = std::min(wall.left, along), wall.right = std::max(wall.right, along), wall.top = std::max(wall.top, at.z());
+  }
+  double ground = model.position[2];
+  for (std::size_t i = 0; i < model.size(); ++i) ground = std::min(ground, model.position[3 * i + 2]);
+  const double beyond = 0.05 * size_of(model);
+  Json list = Json::array();
+  for (const auto& [key, wall] : walls) {
+    const Vector3 along = Vector3::UnitZ().cross(wall.normal), foot = wall.plane * wall.normal;
+    Json corners = Json::array();
+    for (const auto& [side, z] : {std::pair{wall.left - beyond, ground}, {wall.right + beyond, ground}, {wall.right + beyond, wall.top + beyond},
+                                  {wall.left - beyond, wall.top + beyond}}) {
+      const Vector3 corner = foot + side * along + z * Vector3::UnitZ();
+      corners.push_back({corner.x(), corner.y(), corner.z()});
+    }
+    list.push_back({{"corners", corners}, {"structure", std::get<0>(key)}, {"across", {wall.across.x(), wall.across.y(), wall.across.z()}}});
+  }
+  return list;
+}
+
 std::vector<int> loose_nodes(const DrawnModel& model) {
   std::set<int> with_members;
   for (const DrawnModel::Member& m : model.members) with_members.insert(model.structure[static_cast<std::size_t>(m.nodes[0])]);
@@ -153,6 +200,8 @@ Json drawing(const RunFolder& run) {
                {"points", loose_nodes(model)},
                {"recorded", run.recorded},
                {"pairs", pairs_json(run)},
+               {"offsets", offsets_json(model)},
+               {"walls", walls_json(model)},
                {"times", Json::array()},
                {"frames", ""},
                {"unit", {0, 0}},

@@ -7,76 +7,15 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "report/thinning.hpp"
+#include "plot/thinning.hpp"
+#include "report/places.hpp"
 
 namespace nsframe {
 namespace {
 
-constexpr std::size_t most_series = 8, most_nodes = 6;
 constexpr double negligible = 1e-6;       // of the largest along any direction: such a chart is left out
 constexpr double vertical_matters = 0.1;  // the same along z
 constexpr std::array<const char*, 3> axis_name{"x", "y", "z"};
-
-struct Place {
-  std::string name;
-  int structure = 0;
-  double level = 0;                  // [m]
-  std::vector<std::size_t> columns;  // of its nodes in the histories
-  int below = -1;                    // the floor below, an index into all places
-  bool drawn = false;
-  double tint = 0;
-};
-
-std::unordered_map<int, std::size_t> columns_of(const RunFolder& run) {
-  std::unordered_map<int, std::size_t> columns;
-  for (std::size_t i = 0; i < run.recorded.size(); ++i) columns[run.recorded[i]] = i;
-  return columns;
-}
-
-// All floors whose nodes have histories, or some nodes where there is none.
-std::vector<Place> places_of(const RunFolder& run) {
-  const auto columns = columns_of(run);
-  std::vector<Place> places;
-  for (const DrawnModel::Level& floor : run.model.floors) {
-    Place place{fmt::format("{}, z = {:g} m", run.model.structures[static_cast<std::size_t>(floor.structure)], floor.level),
-                floor.structure,
-                floor.level,
-                {}};
-    for (const int node : floor.nodes) {
-      if (const auto found = columns.find(node); found != columns.end()) place.columns.push_back(found->second);
-    }
-    if (place.columns.size() < floor.nodes.size()) continue;
-    if (!places.empty() && places.back().structure == place.structure) place.below = static_cast<int>(places.size()) - 1;
-    places.push_back(std::move(place));
-  }
-  if (!places.empty()) return places;
-  for (std::size_t i = 0; i < std::min(most_nodes, run.recorded.size()); ++i) {
-    const auto node = static_cast<std::size_t>(run.recorded[i]);
-    places.push_back({run.model.nodes[node], run.model.structure[node], run.model.position[3 * node + 2], {i}});
-  }
-  return places;
-}
-
-// Of each structure the roof and floors at even distances below it; the base, which has a floor above and none below, isn't one.
-void choose(std::vector<Place>& places, std::size_t structures) {
-  const std::size_t most = std::max<std::size_t>(1, most_series / std::max<std::size_t>(1, structures));
-  for (std::size_t first = 0; first < places.size();) {
-    std::size_t last = first;
-    while (last < places.size() && places[last].structure == places[first].structure) ++last;
-    std::vector<std::size_t> floors;
-    for (std::size_t i = first; i < last; ++i) {
-      if (i > first || last - first == 1 || places[i].below < 0) floors.push_back(i);
-    }
-    if (floors.size() > 1 && places[floors[1]].below == static_cast<int>(floors[0])) floors.erase(floors.begin());
-    const std::size_t count = std::min(most, floors.size());
-    for (std::size_t k = 0; k < count; ++k) {
-      Place& place = places[floors[floors.size() - 1 - k * floors.size() / count]];
-      place.drawn = true;
-      place.tint = count > 1 ? 0.62 * static_cast<double>(k) / static_cast<double>(count - 1) : 0;
-    }
-    first = last;
-  }
-}
 
 struct Track {
   std::size_t place = 0;
@@ -88,12 +27,12 @@ struct Track {
   }
 };
 
-// Histories of the drawn floors in one direction of one quantity.
-struct SpectralQuantity {
-  std::string title;
-  const char* unit;
-  double factor;
-  std::vector<Track> tracks;
+// Histories of the drawn places in one direction of one quantity.
+struct Panel {
+  RunChart chart;
+  std::size_t component;  // of a node's six
+  bool between;           // a floor and the one below, over the height between them
+  std::vector<Track> tracks{};
 
   double largest() const {
     double value = 0;
@@ -102,80 +41,105 @@ struct SpectralQuantity {
   }
 };
 
+// What is asked for of one quantity.
+struct FloorQuantity {
+  ChartGroup group;
+  const char* data;
+  std::vector<Panel> panels;
+  std::vector<Curve> orbits{};  // of each place; empty but for "orbit"
+};
+
+FloorQuantity quantity_of(const std::string& id) {
+  const auto along = [](const char* title, const char* after, const char* name, const char* unit, double factor, std::size_t directions,
+                        bool between) {
+    std::vector<Panel> panels;
+    for (std::size_t k = 0; k < directions; ++k) {
+      Panel panel{chart_over_time(fmt::format("{} along {}{}", title, axis_name[k], after), name, unit, factor), k, between};
+      panel.chart.direction = static_cast<int>(k);
+      panels.push_back(std::move(panel));
+    }
+    return panels;
+  };
+  if (id == "displacement")
+    return {{id, "Displacement", ""}, "/nodes/displacement", along("Displacement", ", relative to the base", "displacement", "mm", 1e3, 3, false)};
+  if (id == "velocity")
+    return {{id, "Velocity", ""}, "/nodes/velocity", along("Velocity", ", relative to the base", "velocity", "m/s", 1, 3, false)};
+  if (id == "drift")
+    return {{id, "Story drift", ""}, "/nodes/displacement", along("Story drift", "", "drift", "% of the height", 100, 2, true)};
+  if (id == "twist") {
+    return {{id, "Twist", ""}, "/nodes/displacement", {{chart_over_time("Twist: rotation about z", "rotation", "mrad", 1e3), 5, false}}};
+  }
+  if (id == "acceleration") {
+    return {{id, "Acceleration", "At an impact it is the jump of velocity over the step, and grows as the step shrinks; floor spectra don't."},
+            "/nodes/acceleration_absolute",
+            along("Absolute acceleration", "", "acceleration", "m/s²", 1, 3, false)};
+  }
+  return {{id, "Orbit", ""}, "/nodes/displacement", {}};
+}
+
 class FloorReader {
  public:
-  FloorReader(const RunFolder& run, std::vector<Place> places, std::size_t parts)
-      : run_(run), places_(std::move(places)), means_(places_.size()) {
-    const auto tracks = [&](bool with_floor_below) {
-      std::vector<Track> list;
+  FloorReader(const RunFolder& run, const std::vector<Place>& places, const ChartChoice& choice)
+      : run_(run), places_(places), choice_(choice), means_(places_.size()) {}
+
+  void add(const std::string& id) {
+    FloorQuantity quantity = quantity_of(id);
+    for (Panel& panel : quantity.panels) {
       for (std::size_t i = 0; i < places_.size(); ++i) {
-        if (places_[i].drawn && (!with_floor_below || places_[i].below >= 0)) list.push_back({i, Thinner(run_.time.size(), parts)});
+        if (places_[i].drawn && (!panel.between || places_[i].below >= 0))
+          panel.tracks.push_back({i, Thinner(run_.time.size(), choice_.parts)});
       }
-      return list;
-    };
-    for (const char* along : axis_name)
-      displacement_.push_back({fmt::format("Displacement along {}, relative to the base", along), "mm", 1e3, tracks(false)});
-    for (std::size_t k = 0; k < 2; ++k)
-      drift_.push_back({fmt::format("Story drift along {}", axis_name[k]), "% of the height", 100, tracks(true)});
-    twist_.push_back({"Twist: rotation about z", "mrad", 1e3, tracks(false)});
-    for (const char* along : axis_name)
-      acceleration_.push_back({fmt::format("Absolute acceleration along {}", along), "m/s²", 1, tracks(false)});
+    }
+    if (id == "orbit") quantity.orbits.resize(places_.size());
+    quantities_.push_back(std::move(quantity));
   }
 
   void read() {
-    read("/nodes/displacement", [&] {
-      for (std::size_t k = 0; k < 3; ++k) add(displacement_[k], [&](const Track& track) { return means_[track.place][k]; });
-      for (std::size_t k = 0; k < 2; ++k) {
-        add(drift_[k], [&](const Track& track) {
-          const Place& place = places_[track.place];
-          const auto below = static_cast<std::size_t>(place.below);
-          return (means_[track.place][k] - means_[below][k]) / (place.level - places_[below].level);
-        });
-      }
-      add(twist_[0], [&](const Track& track) { return means_[track.place][5]; });
-    });
-    read("/nodes/acceleration_absolute", [&] {
-      for (std::size_t k = 0; k < 3; ++k) add(acceleration_[k], [&](const Track& track) { return means_[track.place][k]; });
-    });
+    for (const char* data : {"/nodes/displacement", "/nodes/velocity", "/nodes/acceleration_absolute"}) read(data);
   }
 
-  std::vector<ChartGroup> groups(const std::string& note) {
-    std::vector<ChartGroup> groups{
-        {"displacement", "Displacement", note, charts(displacement_)},
-        {"drift", "Story drift", "", charts(drift_, true)},
-        {"twist", "Twist", "", charts(twist_)},
-        {"acceleration", "Acceleration",
-         "At an impact it is the jump of velocity over the step, and grows as the step shrinks; floor spectra don't.",
-         charts(acceleration_)}};
-    if (groups[2].charts.size() == 1 && !groups[1].charts.empty()) {  // beside the drifts
-      groups[1].title = "Story drift and twist";
-      groups[1].charts.push_back(std::move(groups[2].charts[0]));
-      groups[2].charts.clear();
+  std::vector<ChartGroup> groups() {
+    std::vector<ChartGroup> groups;
+    for (FloorQuantity& quantity : quantities_) {
+      quantity.group.charts = quantity.orbits.empty() ? charts(quantity.panels) : orbit(quantity.orbits);
+      groups.push_back(std::move(quantity.group));
     }
-    std::erase_if(groups, [](const ChartGroup& group) { return group.charts.empty(); });
     return groups;
   }
 
  private:
-  template <class Value>
-  void add(SpectralQuantity& quantity, const Value& value) {
-    for (Track& track : quantity.tracks) track.add(value(track));
-  }
-
-  // Calls `row` with the means of all places set, for every row of the data set.
-  template <class Row>
-  void read(const char* name, const Row& row) {
+  void read(const std::string& name) {
     if (!run_.results.has(name)) return;
+    if (std::none_of(quantities_.begin(), quantities_.end(), [&](const FloorQuantity& q) { return q.data == name; })) return;
     const std::size_t width = 6 * run_.recorded.size(), rows = run_.time.size(), block = std::max<std::size_t>(1, (1U << 19U) / width);
     std::vector<double> values;
     for (std::size_t first = 0; first < rows; first += block) {
       const std::size_t count = std::min(block, rows - first);
-      run_.results.read_rows(name, first, count, values);
+      run_.read_rows(name, first, count, values);
       for (std::size_t i = 0; i < count; ++i) {
         set_means(values.data() + i * width);
-        row();
+        for (FloorQuantity& quantity : quantities_) {
+          if (quantity.data == name) add_row(quantity);
+        }
       }
     }
+  }
+
+  void add_row(FloorQuantity& quantity) {
+    for (Panel& panel : quantity.panels) {
+      for (Track& track : panel.tracks) track.add(value(panel, places_[track.place], means_[track.place][panel.component]));
+    }
+    for (std::size_t p = 0; p < quantity.orbits.size(); ++p) {
+      if (!places_[p].drawn) continue;
+      quantity.orbits[p].x.push_back(1e3 * means_[p][0]);
+      quantity.orbits[p].y.push_back(1e3 * means_[p][1]);
+    }
+  }
+
+  double value(const Panel& panel, const Place& place, double own) const {
+    if (!panel.between) return own;
+    const auto below = static_cast<std::size_t>(place.below);
+    return (own - means_[below][panel.component]) / (place.level - places_[below].level);
   }
 
   void set_means(const double* row) {
@@ -188,38 +152,67 @@ class FloorReader {
     }
   }
 
-  // `between`: floors, not of one.
-  std::vector<ReportChart> charts(std::vector<SpectralQuantity>& quantities, bool between = false) {
+  bool matters(const Panel& panel, double largest) const {
+    if (panel.tracks.empty()) return false;
+    if (choice_.direction >= 0 && panel.chart.direction >= 0) return panel.chart.direction == choice_.direction;
+    if (panel.chart.direction < 0 && choice_.zeros) return true;
+    return panel.largest() > largest * (panel.chart.direction == 2 ? vertical_matters : negligible) && panel.largest() >= 1e-12;
+  }
+
+  std::vector<RunChart> charts(std::vector<Panel>& panels) const {
     double largest = 0;
-    for (const SpectralQuantity& quantity : quantities) largest = std::max(largest, quantity.largest());
-    std::vector<ReportChart> charts;
-    for (std::size_t k = 0; k < quantities.size(); ++k) {
-      SpectralQuantity& quantity = quantities[k];
-      const double least = largest * (k == 2 ? vertical_matters : negligible);
-      if (!(quantity.largest() > least) || quantity.largest() < 1e-12) continue;
-      ReportChart chart{quantity.title, quantity.unit, "time, s", quantity.factor, true};
-      for (Track& track : quantity.tracks) {
-        const Place& place = places_[track.place];
-        const auto below = static_cast<std::size_t>(std::max(0, place.below));
-        ChartSeries series{between ? fmt::format("{}, {:g} to {:g} m", run_.model.structures[static_cast<std::size_t>(place.structure)],
-                                                 places_[below].level, place.level)
-                                   : place.name,
-                           place.structure,
-                           place.tint,
-                           {},
-                           track.thinner.values()};
-        for (const std::size_t row : track.thinner.rows()) series.x.push_back(run_.time[row]);
-        chart.series.push_back(std::move(series));
-      }
-      charts.push_back(std::move(chart));
+    for (const Panel& panel : panels) largest = std::max(largest, panel.largest());
+    std::vector<RunChart> charts;
+    for (Panel& panel : panels) {
+      if (matters(panel, largest)) charts.push_back(chart(panel));
     }
+    if (charts.empty() && choice_.zeros && choice_.direction < 0 && !panels.front().tracks.empty()) charts.push_back(chart(panels.front()));
     return charts;
   }
 
+  RunChart chart(Panel& panel) const {
+    RunChart chart = std::move(panel.chart);
+    for (Track& track : panel.tracks) {
+      const Place& place = places_[track.place];
+      Curve curve = curve_of(place);
+      curve.y = track.thinner.values();
+      if (panel.between) {
+        curve.name = fmt::format("{}, {:g} to {:g} m", run_.model.structures[static_cast<std::size_t>(place.structure)],
+                                 places_[static_cast<std::size_t>(place.below)].level, place.level);
+      }
+      for (const std::size_t row : track.thinner.rows()) curve.x.push_back(run_.time[row]);
+      chart.curves.push_back(std::move(curve));
+    }
+    return chart;
+  }
+
+  std::vector<RunChart> orbit(std::vector<Curve>& orbits) const {
+    RunChart chart;
+    chart.title = "Path in plan, relative to the base";
+    chart.x_label = "displacement along x, mm";
+    chart.y_label = "displacement along y, mm";
+    chart.unit = "mm";
+    chart.equal = true;
+    for (std::size_t p = 0; p < orbits.size(); ++p) {
+      if (orbits[p].x.empty()) continue;
+      Curve curve = curve_of(places_[p]);
+      curve.x = std::move(orbits[p].x), curve.y = std::move(orbits[p].y);
+      chart.curves.push_back(std::move(curve));
+    }
+    return {std::move(chart)};
+  }
+
+  static Curve curve_of(const Place& place) {
+    Curve curve{place.name};
+    curve.colour = place.colour, curve.tint = place.tint;
+    return curve;
+  }
+
   const RunFolder& run_;
-  std::vector<Place> places_;
+  const std::vector<Place>& places_;
+  const ChartChoice& choice_;
   std::vector<std::array<double, 6>> means_;  // of each place in the present row
-  std::vector<SpectralQuantity> displacement_, drift_, twist_, acceleration_;
+  std::vector<FloorQuantity> quantities_;
 };
 
 std::size_t count_drawn(const std::vector<Place>& places) {
@@ -228,20 +221,19 @@ std::size_t count_drawn(const std::vector<Place>& places) {
 
 }  // namespace
 
-std::size_t drawn_floors(const RunFolder& run) {
-  std::vector<Place> places = places_of(run);
-  choose(places, run.model.structures.size());
-  return count_drawn(places);
-}
+std::size_t drawn_floors(const RunFolder& run) { return count_drawn(places_of(run, {}, {})); }
 
-std::vector<ChartGroup> floor_charts(const RunFolder& run, std::size_t parts) {
+std::vector<ChartGroup> floor_charts(const RunFolder& run, const std::vector<std::string>& quantities, const ChartChoice& choice) {
   if (run.time.empty() || run.recorded.empty()) return {};
-  std::vector<Place> places = places_of(run);
-  choose(places, run.model.structures.size());
-  const std::size_t drawn = count_drawn(places), floors = places.size();
-  FloorReader reader(run, std::move(places), parts);
+  const std::vector<Place> places = places_of(run, choice.nodes, choice.floors);
+  FloorReader reader(run, places, choice);
+  for (const std::string& id : quantities) reader.add(id);
   reader.read();
-  return reader.groups(drawn + run.model.structures.size() < floors ? fmt::format("{} of {} levels are drawn.", drawn, floors) : "");
+  std::vector<ChartGroup> groups = reader.groups();
+  const std::size_t drawn = count_drawn(places);
+  if (!groups.empty() && drawn + run.model.structures.size() < places.size())
+    groups.front().note = fmt::format("{} of {} levels are drawn.", drawn, places.size());
+  return groups;
 }
 
 }  // namespace nsframe

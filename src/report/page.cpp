@@ -37,10 +37,10 @@ Json groups_json(const std::vector<ChartGroup>& groups) {
   Json list = Json::array();
   for (const ChartGroup& group : groups) {
     Json charts = Json::array();
-    for (const ReportChart& chart : group.charts) {
+    for (const RunChart& chart : group.charts) {
       Json series = Json::array();
-      for (const ChartSeries& s : chart.series) {
-        series.push_back({{"name", s.name}, {"structure", s.structure}, {"tint", s.tint}, {"x", rounded(s.x)}, {"y", rounded(s.y)}});
+      for (const Curve& c : chart.curves) {
+        series.push_back({{"name", c.name}, {"colour", c.colour}, {"tint", c.tint}, {"x", rounded(c.x)}, {"y", rounded(c.y)}});
       }
       charts.push_back({{"title", chart.title},
                         {"unit", chart.unit},

@@ -17,7 +17,7 @@ nlohmann::json read_summary(const std::filesystem::path& folder) {
   std::ifstream stream(path, std::ios::binary);
   if (!stream) {
     throw InputError(
-        fmt::format("error: '{}' has no summary.json: a report needs a folder that nsframe run has written", folder.string()));
+        fmt::format("error: '{}' has no summary.json: name a folder that nsframe run has written", folder.string()));
   }
   nlohmann::json summary = nlohmann::json::parse(stream, nullptr, false);
   if (summary.is_discarded() || !summary.is_object() || summary.value("program", "") != "nsframe") {
@@ -66,10 +66,15 @@ DrawnModel read_model(const Hdf5Reader& results) {
   const std::vector<double> levels = results.numbers("/model/floors/level");
   auto nodes = ragged(results.integers("/model/floors/node"), results.integers("/model/floors/first"));
   for (std::size_t i = 0; i < levels.size(); ++i) model.floors.push_back({structures[i], levels[i], std::move(nodes[i])});
-  const std::vector<double> positions = results.numbers("/model/pairs/position");
+  const std::vector<double> positions = results.numbers("/model/pairs/position"), normals = results.numbers("/model/pairs/normal");
+  std::vector<double> gaps(positions.size() / 3, 0);
+  if (results.has("/model/pairs/gap")) gaps = results.numbers("/model/pairs/gap");
   const std::vector<int> sides = results.integers("/model/pairs/structures");
   for (std::size_t i = 0; 3 * i < positions.size(); ++i) {
-    model.pairs.push_back({{positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]}, {sides[2 * i], sides[2 * i + 1]}});
+    model.pairs.push_back({{positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]},
+                           {normals[3 * i], normals[3 * i + 1], normals[3 * i + 2]},
+                           gaps[i],
+                           {sides[2 * i], sides[2 * i + 1]}});
   }
   return model;
 }
@@ -84,6 +89,16 @@ RunFolder::RunFolder(const std::filesystem::path& folder)
   std::unordered_map<std::string, int> index;
   for (std::size_t i = 0; i < model.size(); ++i) index[model.nodes[i]] = static_cast<int>(i);
   for (const std::string& id : results.texts("/nodes/id")) recorded.push_back(index.at(id));
+}
+
+void RunFolder::limit(double from, double to) {
+  const auto first = std::lower_bound(time.begin(), time.end(), from - 1e-9), last = std::upper_bound(first, time.end(), to + 1e-9);
+  if (last - first < 2) {
+    const std::string had = time.empty() ? "none" : fmt::format("{:g} to {:g} s", time.front(), time.back());
+    throw InputError(fmt::format("error: no histories from {:g} to {:g} s; the results have {}", from, to, had));
+  }
+  first_row = static_cast<std::size_t>(first - time.begin());
+  time = {first, last};
 }
 
 }  // namespace nsframe

@@ -24,7 +24,9 @@ struct DrawnModel {
     std::vector<int> nodes;
   };
   struct Pair {
-    double position[3];  // [m]
+    double position[3];  // [m]; of the structure's side where the other is a wall
+    double normal[3];
+    double gap;          // at rest without loads [m]
     int structures[2];   // -1: a wall
   };
 
@@ -43,10 +45,18 @@ struct RunFolder {
   // Throws InputError when it is no folder of a run, IoError when a file of it cannot be read.
   explicit RunFolder(const std::filesystem::path& folder);
 
+  // Leaves the rows from `from` to `to` [s] only. Throws InputError when there are fewer than two.
+  void limit(double from, double to);
+  // Rows [first, first + count) of those left, of a history.
+  void read_rows(const std::string& name, std::size_t first, std::size_t count, std::vector<double>& values) const {
+    results.read_rows(name, first_row + first, count, values);
+  }
+
   nlohmann::json summary;
   Hdf5Reader results;
   DrawnModel model;
   std::vector<double> time;   // of the rows of histories [s]
+  std::size_t first_row = 0;  // of `time` in results.h5
   std::vector<int> recorded;  // nodes with histories, in the order of results.h5
 };
 

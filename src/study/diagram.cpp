@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <map>
 
-#include "study/chart.hpp"
+#include "plot/chart.hpp"
 #include "study/report.hpp"
 
 namespace nsframe {

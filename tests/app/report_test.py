@@ -14,7 +14,8 @@ import subprocess
 import sys
 import tempfile
 import unittest
-import zlib
+
+from png_pixels import pixels
 
 PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 KEEP = pathlib.Path(sys.argv[4]).resolve() if len(sys.argv) > 4 else None
@@ -46,40 +47,6 @@ def charts_of(data):
 
 def largest(series):
     return max(abs(value) for value in series["y"])
-
-
-def pixels(path):
-    """Width, height and the rows of an 8-bit PNG without interlacing, as bytes of its channels."""
-    data = path.read_bytes()
-    assert data[:8] == b"\x89PNG\r\n\x1a\n"
-    at, parts = 8, b""
-    while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at:at + 8])
-        if kind == b"IHDR":
-            width, height, depth, colour, _, _, interlaced = struct.unpack(">IIBBBBB", data[at + 8:at + 8 + size])
-        elif kind == b"IDAT":
-            parts += data[at + 8:at + 8 + size]
-        at += 12 + size
-    assert depth == 8 and interlaced == 0
-    channels = {0: 1, 2: 3, 4: 2, 6: 4}[colour]
-    raw, rows, last = zlib.decompress(parts), [], bytes(width * channels)
-    for y in range(height):
-        kind, line = raw[y * (width * channels + 1)], bytearray(raw[y * (width * channels + 1) + 1:(y + 1) * (width * channels + 1)])
-        for i in range(len(line)):
-            a, b, c = (line[i - channels] if i >= channels else 0), last[i], (last[i - channels] if i >= channels else 0)
-            if kind == 1:
-                line[i] = (line[i] + a) & 255
-            elif kind == 2:
-                line[i] = (line[i] + b) & 255
-            elif kind == 3:
-                line[i] = (line[i] + (a + b) // 2) & 255
-            elif kind == 4:
-                p = a + b - c
-                near = min((abs(p - a), 0, a), (abs(p - b), 1, b), (abs(p - c), 2, c))[2]
-                line[i] = (line[i] + near) & 255
-        last = bytes(line)
-        rows.append(last)
-    return width, height, channels, rows
 
 
 class PageTest(unittest.TestCase):
@@ -148,6 +115,23 @@ class PageTest(unittest.TestCase):
         self.assertEqual(len(view["members"]), self.summary["elements"] - 8)  # the springs at the feet
         for node in (node for member in view["members"] for node in member["nodes"]):
             self.assertLess(node, self.summary["nodes"])
+
+    def test_gaps_are_widened_by_their_mean_and_a_wall_stands_where_the_scene_says(self):
+        self.assertEqual(self.data["view"]["walls"], [])
+        left, right = self.data["view"]["offsets"]  # gaps of 5 and 5.5 cm
+        self.assertEqual(left, [0, 0, 0])
+        self.assertAlmostEqual(right[0], 0.0525, places=9)
+        with tempfile.TemporaryDirectory() as folder:
+            _, data, summary = make(folder, "stick_slip", "analysis.duration=0.2")
+            (wall,) = data["view"]["walls"]
+            for corner in wall["corners"]:
+                self.assertAlmostEqual(corner[0], 10.04, places=9)
+            for found, known in zip(wall["across"], (0.03, 0, 0)):
+                self.assertAlmostEqual(found, known, places=9)
+            self.assertEqual(wall["structure"], 1)
+            self.assertEqual(sorted({corner[2] for corner in wall["corners"]})[0], 0)
+            self.assertTrue(min(c[1] for c in wall["corners"]) < 0 and max(c[1] for c in wall["corners"]) > 4)
+            self.assertEqual(len(summary["warnings"]), len(set(summary["warnings"])))
 
     def test_title_cannot_break_the_page(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -15,12 +15,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 
 #include "base/errors.hpp"
 #include "output/frame_geometry.hpp"
-#include "output/paraview_script.hpp"
 #include "output/vtk_frames.hpp"
 #include "tests/output/sample_pair.hpp"
 #include "tests/support/files.hpp"
@@ -379,35 +377,6 @@ TEST_CASE("no frames asked for, none written; a folder in the way of them is an 
   std::ofstream(folder / "frames") << "a file";
   VtkFrames frames(folder.path(), at_rate(10));
   CHECK_THROWS_AS(frames.start(model, sample_state(model)), IoError);
-}
-
-TEST_CASE("the scale of the ParaView script makes the largest displacement visible") {
-  const Model model = sample_pair();
-  CHECK(visible_scale(model, 0) == 1);
-  CHECK(visible_scale(model, 10) == 1);
-  const double scale = visible_scale(model, 0.01);
-  CHECK(scale * 0.01 > 0.02 * 8.6);  // the diagonal of the pair is 8.6 m
-  CHECK(scale * 0.01 < 0.08 * 8.6);
-}
-
-TEST_CASE("the ParaView script is valid Python that names the frames and starts at the largest displacement") {
-  const TemporaryFolder folder;
-  const Model model = sample_pair();
-  VtkFrames frames(folder.path(), at_rate(1000));
-  const State rest = sample_state(model);
-  frames.start(model, rest);
-  State peak = rest;
-  peak.time = 1e-3;
-  peak.displacement *= 3;
-  frames.step(rest, peak, {}, {});
-  frames.finish();
-  const std::string script = file_text(folder / "open_in_paraview.py");
-  CHECK(script.find("AnimationTime = 0.001") != std::string::npos);
-  CHECK(script.find("\"frames.pvd\"") != std::string::npos);
-  CHECK(script.find("t = {time:.3f} s") != std::string::npos);
-  CHECK(script.find("{scale") == std::string::npos);
-  const std::string command = "python3 -m py_compile '" + (folder / "open_in_paraview.py").string() + "' 2>&1";
-  if (std::system("python3 --version > /dev/null 2>&1") == 0) CHECK(std::system(command.c_str()) == 0);
 }
 
 #endif

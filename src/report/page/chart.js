@@ -14,6 +14,7 @@ function niceTicks(low, high, count) {
   const step = power * [1, 2, 5, 10].find(factor => factor * power >= rough * 0.999);
   const ticks = [], first = Math.ceil(low / step - 1e-9);
   for (let k = first; k * step <= high + 1e-9 * step; ++k) ticks.push(k * step);
+  if (ticks.length < 3 && count < 30) return niceTicks(low, high, 1.5 * count);
   const decimals = Math.max(0, -Math.floor(Math.log10(step) + 1e-9));
   const text = value => Math.abs(value) < 1e-9 * step ? "0" : Math.abs(value) >= 1e6 ? value.toExponential(1)
     : decimals > 6 ? value.toExponential(1) : value.toFixed(decimals);

@@ -81,7 +81,7 @@ function view() {
 
 function seriesOf(chart) {
   return chart.series.map((series, k) => {
-    const base = series.structure >= 0 ? colours[series.structure] : palette[k % palette.length];
+    const base = palette[(series.colour >= 0 ? series.colour : k) % palette.length];
     return {...series, colour: series.tint ? tinted(base, series.tint) : base, width: series.tint ? 1.1 : 1.5};
   });
 }

@@ -18,8 +18,8 @@ class View {
     this.camera = {azimuth: -1.12, elevation: 0.3, zoom: 1};
     this.ghost = true;
     this.speed = 1;
-    this.extent();
     this.scale = data.scale;
+    this.extent();
     this.canvas = element("canvas", {role: "img", "aria-label": "Deformed shape in 3D; drag to rotate"});
     this.host = element("figure", {class: "card view"}, this.canvas);
     this.listen();
@@ -28,13 +28,21 @@ class View {
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }
 
+  // How far gaps drawn as wide as displacements are large move a structure, and a wall in front of it.
+  offset(structure, across = [0, 0, 0]) {
+    return this.data.offsets[structure].map((value, k) => (this.scale - 1) * (value + across[k]));
+  }
+
   extent() {
-    const points = [...this.data.position], low = [...points[0]], high = [...points[0]], n = 6 * this.data.recorded.length;
+    const place = (p, offset) => p.map((x, k) => x + offset[k]);
+    const points = this.data.position.map((p, node) => place(p, this.offset(this.data.structure[node])));
+    for (const wall of this.data.walls) for (const p of wall.corners) points.push(place(p, this.offset(wall.structure, wall.across)));
+    const low = [...points[0]], high = [...points[0]], n = 6 * this.data.recorded.length;
     for (const node of this.data.points) {  // nothing but a node: where it goes counts
       const k = this.slot.get(node);
       for (let i = 0; k !== undefined && i < this.data.times.length; ++i) {
         const motion = d => this.data.unit[0] * this.data.scale * this.frames[i * n + 6 * k + d];
-        points.push(this.data.position[node].map((x, d) => x + motion(d)));
+        points.push(points[node].map((x, d) => x + motion(d)));
       }
     }
     for (const p of points) for (let k = 0; k < 3; ++k) { low[k] = Math.min(low[k], p[k]); high[k] = Math.max(high[k], p[k]); }
@@ -129,8 +137,8 @@ class View {
   }
 
   collect(shapes, motion, scale, pieces, ghost) {
-    const {data} = this, add = (points, style) => {
-      const seen = points.map(p => this.project(p));
+    const {data} = this, add = (points, style, offset) => {
+      const seen = points.map(p => this.project(p.map((x, k) => x + offset[k])));
       shapes.push({points: seen, depth: ghost ? -Infinity : seen.reduce((sum, p) => sum + p[2], 0) / seen.length, ...style});
     };
     for (const member of data.members) {
@@ -139,18 +147,23 @@ class View {
       const colour = this.colours[data.structure[member.nodes[0]] % this.colours.length];
       const style = ghost ? {stroke: "#ccd2d8", width: 1} : member.curved ? {stroke: colour, width: 2.4}
         : {stroke: tinted(colour, 0.5), width: 1.2};
-      if (ghost || points.length === 2) add(points, style);
-      else for (let k = 1; k < points.length; ++k) add([points[k - 1], points[k]], style);
+      const offset = this.offset(data.structure[member.nodes[0]]);
+      if (ghost || points.length === 2) add(points, style, offset);
+      else for (let k = 1; k < points.length; ++k) add([points[k - 1], points[k]], style, offset);
     }
     if (ghost) return;
     const place = node => { const u = this.moved(motion, node, scale); return data.position[node].map((x, k) => x + (u ? u[0][k] : 0)); };
     for (const slab of data.slabs) {
       const colour = this.colours[data.structure[slab[0]] % this.colours.length];
       const rgb = [1, 3, 5].map(at => parseInt(colour.slice(at, at + 2), 16)).join(",");
-      add(slab.map(place), {fill: "rgba(" + rgb + ",0.16)", stroke: "rgba(" + rgb + ",0.5)", width: 1});
+      add(slab.map(place), {fill: "rgba(" + rgb + ",0.16)", stroke: "rgba(" + rgb + ",0.5)", width: 1},
+        this.offset(data.structure[slab[0]]));
     }
     for (const node of data.points) {
-      add([place(node)], {dot: 6, stroke: this.colours[data.structure[node] % this.colours.length]});
+      add([place(node)], {dot: 6, stroke: this.colours[data.structure[node] % this.colours.length]}, this.offset(data.structure[node]));
+    }
+    for (const wall of data.walls) {
+      add(wall.corners, {fill: "rgba(90, 98, 107, 0.22)", stroke: "#8a929b", width: 1}, this.offset(wall.structure, wall.across));
     }
   }
 
@@ -171,7 +184,8 @@ class View {
       const age = this.time - t - duration, where = this.data.pairs[pair];
       if (this.time < t - 1e-9 || age > shown || !where) continue;
       const u = where.node >= 0 ? this.moved(motion, where.node, this.scale) : null;
-      const p = this.project(where.position.map((x, k) => x + (u ? u[0][k] : 0)));
+      const offset = where.node >= 0 ? this.offset(this.data.structure[where.node]) : [0, 0, 0];
+      const p = this.project(where.position.map((x, k) => x + offset[k] + (u ? u[0][k] : 0)));
       c.strokeStyle = "rgba(140, 29, 64, " + Math.min(1, 1 - 0.8 * Math.max(0, age) / shown) + ")";
       c.lineWidth = 3;
       c.beginPath();
@@ -239,6 +253,7 @@ class View {
       const scaleSlider = element("input", {type: "range", min: 0, max: 4, step: 0.02, "aria-label": "Scale of displacements"});
       scaleSlider.addEventListener("input", () => {
         this.scale = +(10 ** scaleSlider.value).toPrecision(2);
+        this.extent();
         scaleText.textContent = "× " + figure(this.scale, 2);
         this.draw();
       });

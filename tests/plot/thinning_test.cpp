@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "report/thinning.hpp"
+#include "plot/thinning.hpp"
 
 using namespace nsframe;
 
