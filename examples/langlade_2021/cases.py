@@ -61,8 +61,8 @@ def yielding(strength_mpa):
             "structure.left.columns.element": "force-based", "structure.right.columns.element": "force-based"}
 
 
-def motion_settings(row, file):
-    return {"motion.file": file, "motion.pga": f"{row['pga']:.2f} g"}
+def motion_settings(row):
+    return {"motion.pga": f"{row['pga']:.2f} g"}
 
 
 def toml_list(values):
@@ -113,7 +113,7 @@ SYSTEMS = (PlaneFrame, TwoStory)
 
 
 def row_settings(system, row, file):
-    return {**motion_settings(row, file), **system.gap(row), **system.damping(row)}
+    return {"motion.file": file, **motion_settings(row), **system.gap(row), **system.damping(row)}
 
 
 def variations(system, row):

@@ -32,7 +32,8 @@ def first_runs(system, row, record, rate):
 
     def read(folder, summary):
         times, columns = histories.displacements(folder)
-        return {**outcome(summary, system.floors), "modes": modes(summary), "histories": (times, {node: columns[node] for node in SHOWN[system.name]})}
+        shown = {node: columns[node] for node in SHOWN[system.name]}
+        return {**outcome(summary, system.floors), "modes": modes(summary), "histories": (times, shown)}
 
     jobs = {}
     both(jobs, (system.name, row["id"]), system, settings, read)
@@ -89,7 +90,7 @@ def measure(program, records, results, curves):
     """Fills results[table]["rows"] and curves for the rows whose record is there; the others stay as they are."""
     chosen = [(system, row, *records[row["motion"]]) for system in cases.SYSTEMS for row in system.rows
               if records.get(row["motion"], (None,))[0]]
-    rates = {row["id"]: 200 if row["motion"] == "el_centro" else 50 for _, row, _, _ in chosen}
+    rates = {row["id"]: 100 if row["motion"] == "el_centro" else 50 for _, row, _, _ in chosen}
     first, later = {}, {}
     for system, row, record, _ in chosen:
         first.update(first_runs(system, row, record, rates[row["id"]]))
@@ -98,8 +99,9 @@ def measure(program, records, results, curves):
         ratios = system.effective_ratios(first[system.name, row["id"], "paper"]["modes"])
         later.update(later_runs(system, row, record, others, ratios))
     # the longest first, so that both processes end together
-    later = dict(sorted(later.items(), key=lambda job: -("S355" in job[0]) - ("S235" in job[0]) - (job[0][-1] in ("5e-05", "2e-05"))))
-    later = program.run_all(later)
+    long = ("S355", "S235", "5e-05", "2e-05")
+    found = program.run_all(dict(sorted(later.items(), key=lambda job: not any(part in long for part in job[0]))))
+    later = {name: found[name] for name in later}
 
     for system, row, record, others in chosen:
         name = (system.name, row["id"])

@@ -8,12 +8,14 @@ import numpy as np
 from program import rounded
 
 PERIODS = [float(f"{0.02 * 100 ** (i / 59):.4g}") for i in range(60)]  # 0.02 to 2 s
+SHORT_PERIODS = [float(f"{0.002 * 1000 ** (i / 59):.4g}") for i in range(60)]  # 0.002 to 2 s
+FUNDAMENTAL = {"table_5": (1 / 3.50, 1 / 6.55), "table_8": (1 / 2.10, 1 / 3.69)}  # [s] left, right
 STEPS = (1e-3, 5e-4, 1e-4)
 
 
-def watching(nodes):
+def watching(nodes, periods=PERIODS):
     listed = "[" + ", ".join(f'"{node}"' for node in nodes) + "]"
-    return {"output.floor_spectra": f"{{ nodes = {listed}, periods = {PERIODS}, damping = 0.05 }}"}
+    return {"output.floor_spectra": f"{{ nodes = {listed}, periods = {periods}, damping = 0.05 }}"}
 
 
 def spectra(folder, summary):
@@ -27,17 +29,34 @@ def of_schemes(program, record):
     frame, story = cases.TABLE_5[3], cases.TABLE_8[1]
     base = {**cases.row_settings(cases.PlaneFrame, frame, record.file), **watching(cases.PlaneFrame.floors.values())}
     for e in (0.2, 0.6, 0.9):
-        jobs["table_5", f"converged, e = {e:g}"] = (cases.PlaneFrame.scene, {**base, **cases.EXACT_SCHEME, "contact.restitution": e}, spectra)
+        settings = {**base, **cases.EXACT_SCHEME, "contact.restitution": e}
+        jobs["table_5", f"converged, e = {e:g}"] = (cases.PlaneFrame.scene, settings, spectra)
     jobs["table_5", "paper"] = (cases.PlaneFrame.scene, {**base, **cases.PAPER_SCHEME}, spectra)
     jobs["table_5", "no contact"] = (cases.PlaneFrame.scene, {**base, **cases.EXACT_SCHEME, "contact.gap": "40 cm"}, spectra)
     base = {**cases.row_settings(cases.TwoStory, story, record.file), **watching(cases.TwoStory.floors.values())}
     for name, settings in (("paper", cases.PAPER_SCHEME), ("converged", cases.EXACT_SCHEME),
                            ("converged, rigid slabs", {**cases.EXACT_SCHEME, **cases.RIGID_SLABS})):
         jobs["table_8", name] = (cases.TwoStory.scene, {**base, **settings}, spectra)
-    curves = {"periods": PERIODS, "table_5": {}, "table_8": {}}
+    curves = {"periods": PERIODS, "step_periods": SHORT_PERIODS, "table_5": {}, "table_8": {}}
     for (table, name), found in program.run_all(jobs).items():
         curves[table][name] = found
-    return curves
+    return effects(curves), curves
+
+
+def effects(curves):
+    """Largest differences of PSA from the converged one at e = 0.6 (of flexible slabs), at and above the fundamental period and below."""
+    found = {}
+    compared = {cases.PlaneFrame: ("converged, e = 0.6", ("converged, e = 0.2", "converged, e = 0.9", "paper", "no contact")),
+                cases.TwoStory: ("converged", ("paper", "converged, rigid slabs"))}
+    for system, (reference, others) in compared.items():
+        table = system.name
+        for name in others:
+            for (side, node), fundamental in zip(system.floors.items(), FUNDAMENTAL[table]):
+                spectrum, base = curves[table][name][node]["psa"], curves[table][reference][node]["psa"]
+                for label, inside in (("above", [t >= fundamental for t in PERIODS]), ("below", [t < fundamental for t in PERIODS])):
+                    chosen = [(a, b) for a, b, here in zip(spectrum, base, inside) if here]
+                    found.setdefault(table, {}).setdefault(name, {}).setdefault(side, {})[label] = largest_difference(*zip(*chosen))
+    return found
 
 
 def largest_difference(spectrum, reference):
@@ -47,14 +66,15 @@ def largest_difference(spectrum, reference):
 def of_steps(program, record):
     """One motion, found exactly and kept every 1, 0.5 and 0.1 ms: its floor spectra by jumps of velocity, and by dv/h."""
     node = cases.PlaneFrame.floors["left"]
-    base = {**cases.row_settings(cases.PlaneFrame, cases.TABLE_5[3], record.file), **watching([node]), **histories.kept([node])}
+    base = {**cases.row_settings(cases.PlaneFrame, cases.TABLE_5[3], record.file), **watching([node], SHORT_PERIODS),
+            **histories.kept([node])}
 
     def read(folder, summary):
         times, acceleration = histories.accelerations(folder, node)
         file = os.path.join(folder, "acceleration.csv")
         np.savetxt(file, np.column_stack([times, acceleration]), delimiter=",", header="time [s], a [m/s2]", comments="", fmt="%.10g")
         out = os.path.join(folder, "spectrum")
-        program.call("spectrum", file, "--at", ",".join(f"{period:g}" for period in PERIODS), "-o", out)
+        program.call("spectrum", file, "--at", ",".join(f"{period:g}" for period in SHORT_PERIODS), "-o", out)
         with open(os.path.join(out, "spectrum.json")) as text:
             psa = json.load(text)["spectra"][0]["psa"]
         return {"jumps": spectra(folder, summary)[node]["psa"], "difference": histories.short(psa),
@@ -62,12 +82,10 @@ def of_steps(program, record):
 
     runs = program.run_all({dt: (cases.PlaneFrame.scene, {**base, **cases.EXACT_SCHEME, "analysis.dt": dt}, read) for dt in STEPS})
     finest = runs[STEPS[-1]]
-    short = [i for i, period in enumerate(PERIODS) if period < 0.1]
     numbers = {"steps": list(STEPS), "peak": [runs[dt]["peak"] for dt in STEPS]}
-    for way in ("jumps", "difference"):
-        numbers[way] = [largest_difference(runs[dt][way], finest[way]) for dt in STEPS]
-        numbers[f"{way}_below_0.1_s"] = [largest_difference([runs[dt][way][i] for i in short], [finest[way][i] for i in short])
-                                         for dt in STEPS]
-    numbers["difference_from_jumps"] = [largest_difference(runs[dt]["difference"], runs[dt]["jumps"]) for dt in STEPS]
+    for label, shortest, longest in (("below 0.02 s", 0, 0.02), ("0.02 to 0.05 s", 0.02, 0.05), ("above 0.05 s", 0.05, 1e9)):
+        chosen = [i for i, period in enumerate(SHORT_PERIODS) if shortest <= period < longest]
+        reference = [finest["jumps"][i] for i in chosen]
+        numbers[label] = {way: [largest_difference([runs[dt][way][i] for i in chosen], reference) for dt in STEPS]
+                          for way in ("jumps", "difference")}
     return numbers, {f"{dt:g}": {way: runs[dt][way] for way in ("jumps", "difference")} for dt in STEPS}
-

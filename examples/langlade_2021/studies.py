@@ -147,7 +147,7 @@ def identification(program):
     values = [round(0.02 * i, 2) for i in range(51)]
     runs = program.run_all({(fit, e): ("pull_back.toml", {**kept, **settings, "contact.restitution": e}, pull_back_pair)
                             for fit, (_, settings) in fits.items() for e in values})
-    numbers = {"effective": effective, "restitutions": values}
+    numbers = {"restitutions": values}
     for fit, (target, _) in fits.items():
         misfit = [float(np.sqrt(np.mean([np.mean((runs[fit, e][side] - targets[target][side]) ** 2) for side in ("left", "right")])))
                   for e in values]
