@@ -107,9 +107,9 @@ def measure(program, records, results, curves):
         name = (system.name, row["id"])
         runs = {scheme: first[(*name, scheme)] for scheme in cases.SCHEMES}
         curves["rows"][f"{system.name}_{row['id']}"] = curves_of(runs, rates[row["id"]])
-        entry = {"record": record.told}
-        if row["motion"] == "el_centro" and not others:  # counts of records that aren't given now stay
-            entry["records"] = results[system.name]["rows"].get(row["id"], {}).get("records", {})
+        earlier = {} if others else results[system.name]["rows"].get(row["id"], {}).get("records", {})
+        # counts of other records stay when none is given now
+        entry = {"record": record.told, "records": {k: v for k, v in earlier.items() if k != record.measured["description"]}}
         for scheme, run in runs.items():
             entry[scheme] = {key: value for key, value in run.items() if key not in ("histories", "modes")}
         entry["added_damping"] = {side: {mode: round(m["added"], 5) for mode, m in of.items() if mode in cases.MODES}

@@ -44,7 +44,8 @@ def of_schemes(program, record):
 
 
 def effects(curves):
-    """Largest differences of PSA from the converged one at e = 0.6 (of flexible slabs), at and above the fundamental period and below."""
+    """Largest differences of PSA from the converged one at e = 0.6 (of flexible slabs): below the fundamental period, from it on, and
+    from 1.5 times it on."""
     found = {}
     compared = {cases.PlaneFrame: ("converged, e = 0.6", ("converged, e = 0.2", "converged, e = 0.9", "paper", "no contact")),
                 cases.TwoStory: ("converged", ("paper", "converged, rigid slabs"))}
@@ -53,8 +54,9 @@ def effects(curves):
         for name in others:
             for (side, node), fundamental in zip(system.floors.items(), FUNDAMENTAL[table]):
                 spectrum, base = curves[table][name][node]["psa"], curves[table][reference][node]["psa"]
-                for label, inside in (("above", [t >= fundamental for t in PERIODS]), ("below", [t < fundamental for t in PERIODS])):
-                    chosen = [(a, b) for a, b, here in zip(spectrum, base, inside) if here]
+                parts = {"below": (0, 1), "above": (1, 1e9), "above 1.5": (1.5, 1e9)}  # times the fundamental period
+                for label, (shortest, longest) in parts.items():
+                    chosen = [(a, b) for a, b, period in zip(spectrum, base, PERIODS) if shortest <= period / fundamental < longest]
                     found.setdefault(table, {}).setdefault(name, {}).setdefault(side, {})[label] = largest_difference(*zip(*chosen))
     return found
 

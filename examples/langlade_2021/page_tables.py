@@ -2,7 +2,6 @@
 import cases
 from program import command_text
 
-TABLES = {"table_5": cases.PlaneFrame, "table_8": cases.TwoStory}
 MOTION_NAMES = {"cadarache": "Cadarache (stand-in)", "el_centro": "El Centro", "northridge": "Northridge", "kobe": "Kobe"}
 NOT_GIVEN = "record not given"
 
