@@ -16,7 +16,7 @@ namespace {
 constexpr Dimension curvature_dimension{-1, 0, 0, 1};
 
 // A quantity of the command line; bare numbers are in `bare` SI units.
-double quantity(const std::string& option, const std::string& text, const Dimension& wanted, double bare = 1) {
+double option_value(const std::string& option, const std::string& text, const Dimension& wanted, double bare = 1) {
   try {
     const Quantity read = parse_quantity(text);
     return read.dimension == dimension::none ? read.value * bare : parse_quantity(text, wanted);
@@ -64,7 +64,7 @@ std::vector<double> curvatures(const SectionArguments& arguments, const Analysed
     throw InputError("error: --curvature and --cycles exclude each other");
   std::vector<double> out;
   for (const std::string& cycle : arguments.cycles) {
-    const double amplitude = quantity("--cycles", cycle, curvature_dimension);
+    const double amplitude = option_value("--cycles", cycle, curvature_dimension);
     if (!(amplitude > 0)) throw InputError(fmt::format("error: --cycles = \"{}\", must be positive", cycle));
     out.insert(out.end(), {amplitude, -amplitude});
   }
@@ -73,7 +73,7 @@ std::vector<double> curvatures(const SectionArguments& arguments, const Analysed
     return out;
   }
   if (!arguments.curvature.empty()) {
-    out.push_back(quantity("--curvature", arguments.curvature, curvature_dimension));
+    out.push_back(option_value("--curvature", arguments.curvature, curvature_dimension));
     if (out.front() == 0) throw InputError("error: --curvature = 0, must not be zero");
     return out;
   }
@@ -97,7 +97,7 @@ std::vector<StrainLimit> strain_limits(const SectionArguments& arguments, const 
     const auto part = std::find(names.begin(), names.end(), name);
     if (part == names.end())
       throw InputError(fmt::format("error: --limit: the section has no material '{}'{}", name, did_you_mean(name, names)));
-    const double strain = quantity("--limit", text.substr(equals + 1), dimension::none);
+    const double strain = option_value("--limit", text.substr(equals + 1), dimension::none);
     if (strain == 0) throw InputError(fmt::format("error: --limit = \"{}\", must not be zero", text));
     StrainLimit& limit = limits[static_cast<std::size_t>(part - names.begin())];
     (strain < 0 ? limit.shortening : limit.elongation) = std::abs(strain);
@@ -122,8 +122,8 @@ void add_interaction(const SectionArguments& arguments, SectionReport& report) {
 int section(const SectionArguments& arguments) {
   SectionReport report;
   report.section = find_section(arguments);
-  report.axial_force = quantity("--axial", arguments.axial, dimension::force);
-  report.angle = quantity("--angle", arguments.angle, dimension::angle, pi / 180);
+  report.axial_force = option_value("--axial", arguments.axial, dimension::force);
+  report.angle = option_value("--angle", arguments.angle, dimension::angle, pi / 180);
   report.free_axis = arguments.free_axis;
   report.cyclic = !arguments.cycles.empty();
   MomentCurvatureOptions options;
