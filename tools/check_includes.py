@@ -4,7 +4,8 @@
     base <- materials <- elements <- models <- assembly <- integrators <- app
     contact: base, models/contacts.hpp, models/contact_law.hpp     modal: base     spectra: base     motion: base, spectra
     integrators: also contact     scene: base .. models, motion     output: base .. models, spectra     study: base .. models
-    plot: base     study: also plot     report: base, output, plot     app, tests, bench: anything
+    plot: base     study: also plot     report: base, output, plot     calibration: base .. integrators, modal
+    app, tests, bench: anything
 
 A test or a bench may also name a helper in its own folder without a path.
 
@@ -20,6 +21,7 @@ CHAIN = ["base", "materials", "elements", "models", "assembly", "integrators"]
 ALLOWED = {folder: set(CHAIN[: i + 1]) for i, folder in enumerate(CHAIN)}
 ALLOWED["assembly"] |= {"modal"}
 ALLOWED["integrators"] |= {"contact", "modal"}
+ALLOWED["calibration"] = set(CHAIN) | {"calibration", "modal"}
 ALLOWED["contact"] = {"base", "contact", "models/contacts.hpp", "models/contact_law.hpp"}
 ALLOWED["modal"] = {"base", "modal"}
 ALLOWED["motion"] = {"base", "motion", "spectra"}

@@ -26,6 +26,7 @@ enum ExitCode { done = 0, defect = 1, bad_input = 2, not_converged = 3, input_ou
 int run(const SceneArguments& arguments);
 int check(const SceneArguments& arguments);
 int modes(const SceneArguments& arguments);
+int calibrate(const SceneArguments& arguments);
 int buckling(const SceneArguments& arguments);
 int export_matrices(const SceneArguments& arguments);
 int reference();

@@ -114,6 +114,12 @@ int program(int count, char** values) {
   modes_command->add_option("-o,--output", arguments.output, "folder for the mode shapes (VTK)");
   modes_command->add_flag("--json", arguments.json, "print JSON");
   modes_command->callback([&] { command = [&] { return modes(arguments); }; });
+  CLI::App* calibrate_command = add_command(program, "calibrate", "fit parameters of a scene to measured frequencies ([calibration])", arguments);
+  calibrate_command->add_option("-o,--output", arguments.output,
+                                "folder for calibration.json and the fitted scene.toml (default: results/<name of the scene>_calibrated)");
+  calibrate_command->add_flag("-q,--quiet", arguments.quiet, "print errors only");
+  calibrate_command->footer("Exit code: 0 fitted, 2 bad input, 3 not converged or a measured mode without a match (files are written all the same).");
+  calibrate_command->callback([&] { command = [&] { return calibrate(arguments); }; });
   CLI::App* buckling_command = add_command(
       program, "buckling", "critical factors of the last static stage's loads, or of gravity; shapes with -o", arguments);
   buckling_command->add_option("-o,--output", arguments.output, "folder for the buckling shapes (VTK)");

@@ -9,6 +9,7 @@
 #include "base/errors.hpp"
 #include "base/timer.hpp"
 #include "integrators/algorithms.hpp"
+#include "integrators/initial_state.hpp"
 #include "integrators/scheme_choice.hpp"
 #include "integrators/static_analysis.hpp"
 #include "integrators/static_control.hpp"
@@ -42,7 +43,7 @@ Simulation::Simulation(const Model& model, const AnalysisOptions& options, int m
   diagnostics.throw_if_any();
   system_.initial_stiffness = system_.assembler.tangent();
   check_stages_fit();
-  find_initial_state();
+  find_initial_state(system_, state_);
   stiffness_ = system_.initial_stiffness = system_.assembler.tangent();
   modes_ = structure_modes(model, stiffness_, modes);
   assemble_damping(system_, stiffness_, modes_);
@@ -54,36 +55,6 @@ Simulation::Simulation(const Model& model, const AnalysisOptions& options, int m
     if (!stage.mode.empty()) stage.pattern = mode_pattern(stage);
   }
   setup_seconds_ = timer.seconds();
-}
-
-void Simulation::find_initial_state() {
-  system_.static_load = model_.gravity_load;
-  const bool statically = model_.gravity_statically_first && model_.loaded();
-  const bool pretensioned = state_.internal_force.cwiseAbs().maxCoeff() > 0;
-  if (statically) {
-    for (const Structure& structure : model_.structures) {
-      if (structure.may_move_freely) {
-        Diagnostics diagnostics;
-        diagnostics.error(structure.at, fmt::format("gravity cannot act statically on structure '{}', which may move freely; "
-                                                    "set statically_first = false in [gravity]", structure.name));
-        diagnostics.throw_if_any();
-      }
-    }
-  }
-  if (statically || pretensioned) {
-    const VectorX load = statically ? model_.gravity_load : VectorX::Zero(model_.dofs.size());
-    solve_static(system_, load, StaticOptions{}, state_);
-  }
-  const bool loads_act_suddenly = system_.assembler.load_factor(state_.history) != 1;
-  if (model_.initial_displacement.cwiseAbs().maxCoeff() > 0 || loads_act_suddenly) {
-    State displaced = state_;
-    displaced.displacement += model_.initial_displacement;
-    system_.assembler.start_step(state_.history, displaced.history);
-    system_.assembler.set_load_factor(1, displaced.history);
-    system_.assembler.internal_force(displaced.displacement, state_.history, displaced.history, displaced.internal_force);
-    state_ = displaced;
-  }
-  state_.velocity = model_.initial_velocity;
 }
 
 void Simulation::check_stages_fit() const {

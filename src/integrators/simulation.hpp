@@ -35,7 +35,6 @@ class Simulation {
   Summary outline() const;
 
  private:
-  void find_initial_state();
   void check_stages_fit() const;
   // The force pattern of a mode by its name, "structure.L1".
   VectorX mode_pattern(const StaticStage& stage) const;

@@ -120,6 +120,23 @@ void check(TableReader& table, const DampingTable& damping) {
   }
 }
 
+void check(TableReader& table, const CalibrationParameterTable& parameter) {
+  if (parameter.sets.empty() == parameter.scales.empty()) table.error("sets", "a parameter has either sets or scales");
+}
+
+void check(TableReader& table, const CalibrationTargetTable& target) {
+  if (!target.mode && target.shape.empty()) table.error("mode", "a target needs a mode or a shape");
+  if (target.mode && !is_mode_name(target.mode->name))
+    table.error(*target.mode, fmt::format("'{}' is not the name of a mode: L, T, R or V and its number", target.mode->name));
+  const bool moves = std::any_of(target.shape.begin(), target.shape.end(), [](const auto& s) { return s.value != 0; });
+  if (!target.shape.empty() && !moves) table.error("shape", "the shape is zero throughout");
+}
+
+void check(TableReader& table, const CalibrationTable& calibration) {
+  if (calibration.parameters.empty()) table.error("parameters", "a calibration needs parameters");
+  if (calibration.targets.empty()) table.error("targets", "a calibration needs targets");
+}
+
 void check(TableReader& table, const StoryFrameTable& frame) {
   for (const std::string& fault : faults(frame.frame)) table.error(fault.substr(0, fault.find_first_of(" .")), fault);
 }

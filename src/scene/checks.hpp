@@ -2,6 +2,7 @@
 #pragma once
 
 #include "models/analysis.hpp"
+#include "scene/calibration_table.hpp"
 #include "scene/tables.hpp"
 
 namespace nsframe {
@@ -29,5 +30,8 @@ void check(TableReader& table, const MotionTable& motion);
 void check(TableReader& table, const FloorSpectraOptions& spectra);
 void check(TableReader& table, const StageTable& stage);
 void check(TableReader& table, const OutputOptions& output);
+void check(TableReader& table, const CalibrationParameterTable& parameter);
+void check(TableReader& table, const CalibrationTargetTable& target);
+void check(TableReader& table, const CalibrationTable& calibration);
 
 }  // namespace nsframe

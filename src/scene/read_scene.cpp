@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/errors.hpp"
+#include "scene/calibration.hpp"
 #include "scene/describe.hpp"
 #include "scene/overrides.hpp"
 #include "scene/reader.hpp"
@@ -113,6 +114,7 @@ Scene parse_scene(std::string_view text, const std::string& name, const std::fil
   describe_model(scene, diagnostics);
   scene.model.screening = scene.analysis.screening;
   if (diagnostics.empty()) check_output_nodes(scene, diagnostics);
+  if (diagnostics.empty()) check_calibration(scene, diagnostics);
   return scene;
 }
 

@@ -203,6 +203,18 @@ void Reader::read(const Value& value, const Field& field, Direction& out) {
   out.vector = std::abs(vector.norm() - 1) < 1e-15 ? vector : vector.normalized();
 }
 
+void Reader::read(const Value& value, const Field& field, KeyQuantity& out) {
+  out.at = value.at;
+  const toml::node* node = value.single();
+  if (!node || !node->is_string()) return read(value, field, out.number);
+  out.text = node->as_string()->get();
+  try {
+    out.number = parse_quantity(out.text).value;
+  } catch (const QuantityError& fault) {
+    error(value.at, fmt::format("{} = \"{}\"{}", field.key, out.text, fault.what()));
+  }
+}
+
 void Reader::read(const Value& value, const Field& field, DofSet& out) {
   const toml::node* node = value.single();
   if (node && node->is_string() && node->as_string()->get() == "fixed") {

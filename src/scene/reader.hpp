@@ -58,6 +58,7 @@ class Reader {
   void read(const Value& value, const Field& field, Reference& out);
   void read(const Value& value, const Field& field, InnerLaw& out) { read(value, field, out.reference); }
   void read(const Value& value, const Field& field, Direction& out);
+  void read(const Value& value, const Field& field, KeyQuantity& out);
   void read(const Value& value, const Field& field, DofSet& out);
   void read(const Value& value, const Field& field, Vector3& out);
   void read(const Value& value, const Field& field, RatioTable& out);

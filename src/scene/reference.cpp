@@ -24,6 +24,7 @@ std::string kind_of(const Field&, const std::string*) { return "text"; }
 std::string kind_of(const Field&, const Reference*) { return "name"; }
 std::string kind_of(const Field&, const InnerLaw*) { return "name"; }
 std::string kind_of(const Field&, const Direction*) { return "\"x\", \"-y\" ... or vector"; }
+std::string kind_of(const Field&, const KeyQuantity*) { return "number, or text with the unit of the keys"; }
 std::string kind_of(const Field&, const DofSet*) { return "DOFs"; }
 std::string kind_of(const Field& field, const Vector3*) { return number_kind(field) + ", three"; }
 std::string kind_of(const Field&, const RatioTable*) { return "list, or table by mode"; }
@@ -98,6 +99,9 @@ constexpr std::string_view title_of(const FrameSlab*) { return "slabs of a story
 constexpr std::string_view title_of(const FrameBraces*) { return "braces"; }
 constexpr std::string_view title_of(const FrameBase*) { return "base"; }
 
+constexpr std::string_view title_of(const CalibrationParameterTable*) { return "a parameter"; }
+constexpr std::string_view title_of(const CalibrationTargetTable*) { return "a target"; }
+constexpr std::string_view title_of(const CalibrationShapeTable*) { return "a measured shape"; }
 constexpr std::string_view title_of(const FloorSpectraOptions*) { return "floor spectra"; }
 
 template <class T>
@@ -144,7 +148,8 @@ class Rows {
         note += fmt::format("{}{}", note.back() == '[' ? "" : ", ", key);
       note += "]`.";
     }
-    if (is_map(type)) note += fmt::format(" As a map: `{{ {} = {} }}`.", row_keys(type)[0], row_keys(type)[1]);
+    if (is_map(type) && row_keys(type).size() == 2) note += fmt::format(" As a map: `{{ {} = {} }}`.", row_keys(type)[0], row_keys(type)[1]);
+    if (is_map(type) && row_keys(type).size() > 2) note += fmt::format(" As a map: `{{ {} = {{ {} = ... }} }}`.", row_keys(type)[0], row_keys(type)[1]);
     if (!scalar_key(type).empty())
       note += fmt::format("{}A bare value stands for `{}`.", note.empty() ? "" : " ", scalar_key(type));
     return {std::string(title_of(type)), keys<T>(note)};
@@ -196,7 +201,7 @@ std::string scene_reference() {
   std::string out(introduction);
   out +=
       "\nTop level: `title`, `[material.NAME]`, `[section.NAME]`, `[structure.NAME]`, `[[contact]]`, `[gravity]`, "
-      "`[[static]]`, `[motion]` or `[[motion]]`, `[analysis]`, `[output]`.\n";
+      "`[[static]]`, `[motion]` or `[[motion]]`, `[analysis]`, `[output]`, `[calibration]`.\n";
   for_each_law([&out](const auto& law) {
     std::string variety;
     if constexpr (requires { law.variety; }) variety = fmt::format(", {}", law.variety);
@@ -217,6 +222,10 @@ std::string scene_reference() {
   out += chapter<MotionTable>("[motion]");
   out += chapter<AnalysisOptions>("[analysis]");
   out += chapter<OutputOptions>("[output]");
+  out += chapter<CalibrationTable>(
+      "[calibration]",
+      "Of `nsframe calibrate`; other commands check it and leave it at that. Keys below `material`, `section`, `structure` and `gravity` "
+      "can be fitted.");
   return out;
 }
 

@@ -13,6 +13,7 @@
 #include "base/diagnostics.hpp"
 #include "models/analysis.hpp"
 #include "models/description.hpp"
+#include "scene/calibration_table.hpp"
 #include "scene/gravity_table.hpp"
 
 namespace nsframe {
@@ -43,6 +44,7 @@ struct SceneTables {
   std::optional<GravityTable> gravity;
   std::vector<StageTable> stages;
   std::vector<MotionTable> motions;
+  std::optional<CalibrationTable> calibration;
 };
 
 struct Scene {

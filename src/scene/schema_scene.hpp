@@ -3,6 +3,7 @@
 
 #include "scene/scene.hpp"
 #include "scene/schema.hpp"
+#include "scene/schema_calibration.hpp"
 #include "scene/schema_contact.hpp"
 #include "scene/schema_structure.hpp"
 
@@ -29,6 +30,7 @@ void visit(Archive& ar, Scene& s) {
   ar(Field{"motion", "base motion: `[motion]`, or `[[motion]]` for several"}, s.tables.motions);
   ar(Field{"analysis", "time history"}, s.analysis);
   ar(Field{"output", "what is kept"}, s.output);
+  ar(Field{"calibration", "what `nsframe calibrate` fits, and to what"}, s.tables.calibration);
 }
 
 }  // namespace nsframe

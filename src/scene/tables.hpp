@@ -228,6 +228,11 @@ struct StoryFrameTable {
 
 using StructureTable = std::variant<ExplicitStructure, StoryFrameTable>;
 
+inline const std::string& structure_name(const StructureTable& table) {
+  const auto* frame = std::get_if<StoryFrameTable>(&table);
+  return frame ? frame->frame.name : std::get<ExplicitStructure>(table).name;
+}
+
 // --- contact, loads
 // ---------------------------------------------------------------------------------------------------
 

@@ -27,6 +27,7 @@ class ValueWriter {
   std::string write(const InnerLaw& value) const { return write(value.reference); }
   std::string write(const Direction& value) const;
   std::string write(const DofSet& value) const;
+  std::string write(const KeyQuantity& value) const { return value.text.empty() ? write(value.number) : write(value.text); }
   std::string write(const Vector3& value) const;
   std::string write(const RatioTable& value) const;
   std::string write(const PairValues& value) const { return write(value.values); }
@@ -63,6 +64,7 @@ class ValueWriter {
     constexpr bool rows = std::is_class_v<typename List::value_type> &&
                           !std::is_same_v<typename List::value_type, Reference> &&
                           !std::is_same_v<typename List::value_type, InnerLaw> &&
+                          !std::is_same_v<typename List::value_type, KeyQuantity> &&
                           !std::is_same_v<typename List::value_type, std::string> &&
                           !std::is_same_v<typename List::value_type, std::vector<double>> &&
                           !std::is_same_v<typename List::value_type, std::array<double, 2>>;

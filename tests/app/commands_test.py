@@ -14,6 +14,7 @@ SOURCE = pathlib.Path(sys.argv[2]).resolve()
 BALL = SOURCE / "examples/bouncing_ball/scene.toml"
 PAIR = SOURCE / "examples/two_story_elastic/scene.toml"
 PUSHOVER = SOURCE / "examples/pushover/scene.toml"
+CALIBRATION = SOURCE / "examples/calibration/scene.toml"
 
 # A mass on a yielding spring that one Newton iteration cannot follow once it yields.
 EULER = """
@@ -371,6 +372,38 @@ class Commands(unittest.TestCase):
         self.assertAlmostEqual(modes["modes"][0]["load_factor"] / 867.465841582, 1, delta=2e-6)
         self.nsframe("buckling", scene, "-o", "shapes")
         self.assertTrue((self.folder / "shapes/frames.pvd").exists())
+
+    def test_calibrate_writes_a_scene_that_runs_and_has_the_fitted_frequencies(self):
+        text = self.nsframe("calibrate", CALIBRATION, "-o", "out").stdout
+        for words in ("converged: ", "structure    mode   measured Hz", "sensitivities d ln f / d ln p", "singular values", "scene.toml, are in out"):
+            self.assertIn(words, text)
+        result = json.loads((self.folder / "out/calibration.json").read_text())
+        self.assertTrue(result["converged"])
+        modes = {(m["structure"], m["mode"]): m["frequency"] for m in json.loads(self.nsframe("modes", "out/scene.toml", "--json").stdout)}
+        for f in result["frequencies"]:
+            self.assertAlmostEqual(modes[f["structure"], f["mode"]], f["fitted"], delta=1e-8 * f["fitted"])
+            self.assertLess(abs(f["fitted"] / f["measured"] - 1), 0.01)
+        self.assertNotIn("[calibration]", (self.folder / "out/scene.toml").read_text())
+        self.nsframe("run", "out/scene.toml", "-o", "run", "-q", "--set", "analysis.duration=3")
+        self.assertTrue(self.summary("run")["completed"])
+
+    def test_calibrate_that_does_not_converge_ends_with_3_and_writes_what_it_has(self):
+        done = self.nsframe("calibrate", CALIBRATION, "-q", "--set", "calibration.max_iterations=1", code=3)
+        self.assertEqual(done.stdout, "")
+        self.assertIn("error: the calibration did not converge: no least squares after 1 iteration", done.stderr)
+        result = json.loads((self.folder / "results/calibration_calibrated/calibration.json").read_text())
+        self.assertFalse(result["converged"])
+
+    def test_bad_calibrations_end_with_2_in_every_command(self):
+        done = self.nsframe("calibrate", PAIR, "-o", "out", code=2)
+        self.assertIn("scene.toml: error: the scene has no [calibration]", done.stderr)
+        for command in ("check", "modes", "calibrate"):
+            done = self.nsframe(command, CALIBRATION, "--set", "calibration.parameters.beam_l.sets=section.beam_left.Ix", code=2)
+            self.assertIn("section.beam_left.Ix: there is no key 'Ix'; did you mean 'I", done.stderr)
+        text = CALIBRATION.read_text().replace('["left", "L1", "2.10 Hz"]', '["left", "L99", "2.10 Hz"]').replace("../motions", str(SOURCE / "examples/motions"))
+        done = self.nsframe("calibrate", self.scene(text), "-o", "out", code=2)
+        self.assertRegex(done.stderr, r"s\.toml:\d+:12: error: structure 'left' has no mode 'L99' among its \d+ modes")
+        self.assertFalse((self.folder / "out").exists())
 
     def test_reference_prints_the_documentation_of_scenes(self):
         self.assertEqual(self.nsframe("reference").stdout, (SOURCE / "docs/scene-reference.md").read_text())

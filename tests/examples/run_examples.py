@@ -6,7 +6,8 @@
 
 An entry of expected.json names a number by its path in the summary, e.g. "poundings/0/t", "poundings/count" or
 "peaks/left.25/displacement/0": of a list, an element is chosen by its index or by what it is of (a node, or
-structure.mode). Paths below "closed_form" are checked by tests/examples/closed_form_test.cpp. With frames, frames.pvd must
+structure.mode, a name). With "command": "calibrate" the scene is calibrated, the numbers are those of calibration.json, and the scene that
+was written must have the fitted frequencies, as `nsframe modes` finds them. Paths below "closed_form" are checked by tests/examples/closed_form_test.cpp. With frames, frames.pvd must
 list files that exist, at times that rise over the whole run.
 """
 import json
@@ -23,6 +24,8 @@ def name_of(element):
         return element["node"]
     if "stage" in element:
         return element["stage"]
+    if "name" in element:
+        return element["name"]
     if "story" in element:
         return f"{element['structure']}.{element['story']}"
     return f"{element.get('structure')}.{element.get('mode')}"
@@ -95,9 +98,32 @@ def run(program, example, with_frames):
         return faults + (frame_faults(folder, summary["end_time"]) if with_frames else [])
 
 
+def calibrate(program, example):
+    expected = json.loads((example / "expected.json").read_text())
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        command = [program, "calibrate", str(example / expected["scene"]), "-q", "-o", str(folder)]
+        ended = subprocess.run(command, capture_output=True, text=True)
+        if ended.returncode != 0 or ended.stdout or ended.stderr:
+            return [f"{' '.join(command)} ended with {ended.returncode}: {(ended.stdout + ended.stderr).strip()}"]
+        result = json.loads((folder / "calibration.json").read_text())
+        modes = subprocess.run([program, "modes", str(folder / "scene.toml"), "--json"], capture_output=True, text=True)
+        if modes.returncode != 0:
+            return [f"the calibrated scene cannot be read: {modes.stderr.strip()}"]
+        return differences(result, expected) + mode_differences(json.loads(modes.stdout), result["frequencies"])
+
+
+def mode_differences(modes, fitted):
+    """Where the modes of a scene are not those that the calibration says of it."""
+    found = {(mode["structure"], mode["mode"]): mode["frequency"] for mode in modes}
+    return [f"{f['structure']}.{f['mode']} of the calibrated scene is {found.get((f['structure'], f['mode']))} Hz, not {f['fitted']} Hz"
+            for f in fitted if abs(found.get((f["structure"], f["mode"]), 0) - f["fitted"]) > 1e-8 * f["fitted"]]
+
+
 def self_test():
     summary = {"poundings": [{"t": 2.5}], "peaks": [{"node": "a.1", "displacement": [0.1, 0, 0]}],
                "drifts": [{"structure": "a", "story": 1, "drift": [0.01, 0]}],
+               "parameters": [{"name": "beam", "fitted": 2}],
                "numerical_damping": [{"structure": "a", "mode": "L1", "asked": 0.005}]}
 
     def count(path, value, tolerance):
@@ -113,6 +139,10 @@ def self_test():
     assert count("drifts/a.1/drift/0", 0.01, 0) == 0
     assert count("numerical_damping/a.L1/asked", 0.005, 0) == 0
     assert count("closed_form/largest_error", 1, 0) == 0
+    assert count("parameters/beam/fitted", 2, 0) == 0
+    assert mode_differences([{"structure": "a", "mode": "L1", "frequency": 2}], [{"structure": "a", "mode": "L1", "fitted": 2}]) == []
+    assert len(mode_differences([{"structure": "a", "mode": "L1", "frequency": 2}], [{"structure": "a", "mode": "L1", "fitted": 2.1}])) == 1
+    assert len(mode_differences([], [{"structure": "a", "mode": "L1", "fitted": 2}])) == 1
     return 0
 
 
@@ -122,7 +152,9 @@ def main(arguments):
     if len(arguments) not in (2, 3) or arguments[2:] not in ([], ["--without-frames"]):
         print(__doc__.strip(), file=sys.stderr)
         return 2
-    faults = run(arguments[0], pathlib.Path(arguments[1]), len(arguments) == 2)
+    example = pathlib.Path(arguments[1])
+    calibrated = json.loads((example / "expected.json").read_text()).get("command") == "calibrate"
+    faults = calibrate(arguments[0], example) if calibrated else run(arguments[0], example, len(arguments) == 2)
     for fault in faults:
         print(f"{pathlib.Path(arguments[1]).name}: {fault}")
     return 1 if faults else 0
