@@ -41,6 +41,8 @@ records proves little: see the other records below.
 - The measured counts lie between ours: the paper's scheme gives as many or fewer in {below} of {len(rows)} rows, the converged solution
 as many or more in {above}. With 0.4 to 0.6 % of damping, solved without error, the frames pound too often; with the 1.6 and 2.6 % of the
 scheme, too seldom.
+- The converged counts of El Centro are confirmed by a second route: two oscillators in closed form, with impacts by bisection, in a test
+that uses none of the program. Impacts agree in number, in time to 0.1 ms, in the sum of impulses to 1e-4.
 - No fine step is needed to see it: θ = ½ at 1 ms has the converged count in {within(rows, 'half', 0)} of {len(rows)} rows, θ = 1 at 0.1
 ms is within one of it in {within(rows, 'fine', 1)}.
 - Peaks of the left frames, which hit, are {min(left):.2f} to {max(left):.2f} of the converged ones under the paper's scheme, those of the

@@ -35,7 +35,7 @@ comes back as the step shrinks: with θ = 1 El Centro 0.45 g has
 {', '.join(f'{count} at {1e3 * float(dt):g} ms' for dt, count in steps['1'].items())}. θ = ½ has {steps['0.5']['0.005']} of them at 5 ms
 already. With flexible slabs (El Centro 0.30 g) even θ = ½ wanders between {min(bursts)} and {max(bursts)} before it settles.
 
-{tables.figure('steps', 'Poundings over the step, rows of El Centro. Steps shrink to the right.')}
+{tables.figure('steps', 'Poundings over the step (γ = 3/2), rows of El Centro. Steps shrink to the right.')}
 **2. In the plane frames it acts as damping and as nothing else.** Solved exactly with the ratios that θ = 1 gives
 ({100 * effective['left']:.2f} and {100 * effective['right']:.2f} % in place of 0.5 %), the frames pound as often as with the paper's
 scheme in {tables.same_counts(plane)} of {len(plane)} rows of Table 5. In Table 8 that holds in {tables.same_counts(story)} of
