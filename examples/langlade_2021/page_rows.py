@@ -91,7 +91,8 @@ record or its frames are others.
 Each structure has {size['nodes'] // 2} nodes and {size['elements'] // 2 - 4} elements (8 columns, 8 edge beams, 8 links from the slabs'
 centres to their corners, 8 bracing cables), and 4 springs under its columns; modal damping of Table 6; contact between the facing corners
 of both slabs: four pairs, eight DOFs. The paper does not print its beams, cables, base springs and slab inertias. Here they come from a
-least-squares fit of six parameters a structure to Table 7, written in [two_story.toml](../examples/langlade_2021/two_story.toml).
+least-squares fit of six parameters a structure to Table 7, written in [two_story.toml](../examples/langlade_2021/two_story.toml);
+`nsframe calibrate` ([example](../examples/calibration/README.md)) finds a fit from round numbers.
 
 Table 7:
 
