@@ -16,6 +16,7 @@ namespace {
 constexpr int most_parts = 100000;   // of a step
 // Overlap after a step that is an error: [m], and of what the fastest approach so far moves in a step.
 constexpr double least_overlap = 1e-7, overlap_of_motion = 0.01;
+constexpr double instant = 1e-3;         // of the step, after which what touches without rate is seen to open or to press
 constexpr int most_follow_ups = 40;      // of what has no mass, until it rests
 constexpr double massless_rest = 1e-6;   // of the motion of a part, that may be left
 constexpr double least_acceleration = 1e-3;  // counts as zero when the residual is judged [m/s2]
@@ -46,6 +47,8 @@ double EventSplit::gap_tolerance(const System& system, int pair) const {
   for (SparseRows::InnerIterator entry(system.contacts().jacobian, pair); entry; ++entry) size += std::abs(entry.value() * q_[entry.col()]);
   return 64 * machine_epsilon * size + 1e-18;
 }
+
+double EventSplit::look_ahead(double remaining) const { return std::min(remaining, instant * step_length_); }
 
 double EventSplit::rate_tolerance() const { return 64 * machine_epsilon * v_.cwiseAbs().maxCoeff() + 1e-12 * largest_approach_; }
 
@@ -125,9 +128,12 @@ EventSplit::Event EventSplit::find_event(double length) {
     if (gap_[c] - s * (std::abs(c0) + s * (std::abs(c1) + s * (std::abs(c2) + s * std::abs(c3)))) > 0) continue;
     double at = s;
     if (touching_[static_cast<std::size_t>(c)]) {
-      if (c0 <= 0) continue;  // settle() has seen that it is open at the end
-      const double a1 = c1 * s, a2 = c2 * s * s, a3 = c3 * s * s * s;  // of g / s
-      at = s * std::min(1.0, first_negative(Eigen::Vector4d(c0, c0 + a1 / 3, c0 + (2 * a1 + a2) / 3, c0 + a1 + a2 + a3), 0));
+      // without rate, settle() has seen that it is open `look_ahead()` later
+      const double x = c0 > rate_tolerance() ? 0 : look_ahead(s), rest = s - x;
+      const double p0 = c0 + x * (c1 + x * (c2 + x * c3));  // of g / s from there on
+      const double p1 = rest * (c1 + x * (2 * c2 + 3 * x * c3)), p2 = rest * rest * (c2 + 3 * x * c3), p3 = rest * rest * rest * c3;
+      if (rest <= 0 || p0 <= 0) continue;
+      at = x + rest * std::min(1.0, first_negative(Eigen::Vector4d(p0, p0 + p1 / 3, p0 + (2 * p1 + p2) / 3, p0 + p1 + p2 + p3), 0));
     } else {
       const double a0 = c0 * s, a1 = c1 * s * s, a2 = c2 * s * s * s, a3 = c3 * s * s * s * s;
       VectorX b(5);

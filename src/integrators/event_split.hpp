@@ -47,6 +47,8 @@ class EventSplit : public Scheme {
   void find_gaps(const System& system);
   double gap_tolerance(const System& system, int pair) const;
   double rate_tolerance() const;
+  // How much later what touches without rate must be open, with `remaining` of the step left [s].
+  double look_ahead(double remaining) const;
 
   // Impacts at this time, until no gap that is zero closes any more; then which pairs stay closed (event_split_contact.cpp).
   void collide(const System& system, double time, double remaining, StepResult& result);

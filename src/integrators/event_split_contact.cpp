@@ -143,6 +143,9 @@ bool EventSplit::collide_once(const System& system, double time, double remainin
     for (std::size_t k = 0; k < pairs.size(); ++k) plastic[k] = plastic[k] || std::binary_search(more.begin(), more.end(), pairs[k]);
   }
   result.created += created_energy(W, impulse, before, rate_(pairs));
+  for (int c = 0; c < system.contacts().size(); ++c) {  // pairs that were leaving may close now
+    if (touching_[static_cast<std::size_t>(c)] && !std::binary_search(pairs.begin(), pairs.end(), c)) rate_[c] = contact(system, c).momentum.dot(v_);
+  }
   result.contact -= change.dot(system.mass() * (velocity + 0.5 * change));
   for (Eigen::Index k = 0; k < count; ++k) {
     if (!(impulse[k] > 0)) continue;
@@ -163,13 +166,14 @@ void EventSplit::settle(const System& system, double time, double remaining, Ste
   }
   if (!candidates.empty()) {
     const auto count = static_cast<Eigen::Index>(candidates.size());
-    // constant forces that keep the gaps open at the end of the step
+    // constant forces that keep the gaps open from now on
+    const double s = look_ahead(remaining);
     VectorX rhs(count);
     for (Eigen::Index b = 0; b < count; ++b) {
       const int c = candidates[static_cast<std::size_t>(b)];
-      rhs[b] = remaining * (path_(c, 0) + remaining * (path_(c, 1) + remaining * (path_(c, 2) + remaining * path_(c, 3))));
+      rhs[b] = s * (path_(c, 0) + s * (path_(c, 1) + s * (path_(c, 2) + s * path_(c, 3))));
     }
-    const VectorX force = solve_forces(system, opening(system, candidates, remaining), candidates, rhs, result);
+    const VectorX force = solve_forces(system, opening(system, candidates, s), candidates, rhs, result);
     const double most = force.maxCoeff();
     for (Eigen::Index k = 0; k < count; ++k) {
       if (force[k] > 1e-12 * most) closed.push_back(candidates[static_cast<std::size_t>(k)]);
