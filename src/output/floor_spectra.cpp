@@ -17,7 +17,7 @@ constexpr std::size_t most_steps = 64;   // lengths kept
 std::string name_of(int node, const Model& model) { return model.nodes.id[static_cast<std::size_t>(node)]; }
 
 // Centres of the slabs of a structure, or their corners; without slabs, the nodes that carry horizontal mass.
-std::vector<std::string> floors_of(const Model& model, int structure) {
+std::vector<std::string> spectra_floors_of(const Model& model, int structure) {
   std::vector<std::string> floors;
   for (const Slab& slab : model.slabs) {
     if (slab.structure != structure) continue;
@@ -44,7 +44,7 @@ std::vector<std::string> resolve(const std::vector<std::string>& names, const Mo
       continue;
     }
     for (int s = 0; s < static_cast<int>(model.structures.size()); ++s) {
-      for (const std::string& floor : floors_of(model, s)) add(floor);
+      for (const std::string& floor : spectra_floors_of(model, s)) add(floor);
     }
   }
   return resolved;
