@@ -116,7 +116,10 @@ def title_of(run, folder):
     numbers = f"{count} pounding{'' if count == 1 else 's'}"
     if impacts != count:
         numbers += f" of {impacts} impacts"
-    return (f"{summary.get('title') or folder.name}\n{summary.get('scheme', '')}, theta = {summary.get('theta', 0):g}, "
+    method = summary.get("integrator", "")
+    if method in ("", "theta"):
+        method = f"theta = {summary.get('theta', 0):g}"
+    return (f"{summary.get('title') or folder.name}\n{summary.get('scheme', '')}, {method}, "
             f"dt = {1e3 * summary.get('dt', 0):g} ms: {numbers}")
 
 
