@@ -21,6 +21,8 @@ struct AnalysisOptions {
   double accuracy = 0;                 // of scheme exponential: parts of dt by an error estimate, relative to the peak; 0: dt as it is
   double duration = 0;                 // [s]; 0: the length of the longest motion
   double theta = 1.0;                  // [1/2, 1]; the paper uses 1
+  std::string integrator = "theta";    // of event-split between impacts: name in its registry (integrators/flight_methods.cpp)
+  double rho_infinity = 0.8;           // of generalized-alpha [0, 1] and alpha-os [1/2, 1]: what a step leaves of unresolved waves
   double gamma = 1.5;                  // activation: a pair takes part where g + gamma dt g' < 0; the paper uses 3/2
   double newton_tolerance = 1e-8;      // residual relative to the largest force of the step
   int max_newton = 30;

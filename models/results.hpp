@@ -199,6 +199,8 @@ struct Timing {
 struct Summary {
   std::string title, scheme, scheme_reason;
   double dt = 0, duration = 0, theta = 0, gamma = 0;
+  std::string integrator;              // of event-split; else empty
+  double rho_infinity = 0;
   int steps = 0, dofs = 0, nodes = 0, elements = 0, fibers = 0;
   std::vector<std::string> structures;
   std::vector<std::vector<double>> frequencies;   // Hz, a list a structure
@@ -220,6 +222,8 @@ struct Summary {
   double max_complementarity_error = 0;
   long newton_iterations = 0, halved_steps = 0, laddered_steps = 0, factorizations = 0;
   long evaluations = 0;                           // of all elements; 0 where the scheme does not count them
+  long stiffened_steps = 0;                       // of alpha-OS, made by its implicit form because members stiffened
+  double struck_frequency = 0;                    // at which struck points ring, where the scheme steps through it [Hz]
   long rejected_parts = 0;                        // of steps, made anew with half the length
   Accumulations accumulations;
   std::vector<std::string> softened_members;      // force-based ones, once more than one state was possible (theory.md, 173)

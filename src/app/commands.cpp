@@ -7,6 +7,7 @@
 
 #include "base/errors.hpp"
 #include "integrators/algorithms.hpp"
+#include "integrators/flight_method.hpp"
 #include "models/fiber_selection.hpp"
 
 namespace nsframe::app {
@@ -15,17 +16,29 @@ LoadedScene load(const SceneArguments& arguments) {
   Diagnostics diagnostics;
   LoadedScene loaded;
   loaded.scene = read_scene(arguments.scene, arguments.set, diagnostics);
+  const auto place_of = [&](const char* key) {
+    const auto place = loaded.scene.places.find(key);
+    return place == loaded.scene.places.end() ? Location{} : place->second;
+  };
   const std::vector<std::string> schemes = scheme_names();
   const std::string& scheme = loaded.scene.analysis.scheme;
   if (std::find(schemes.begin(), schemes.end(), scheme) == schemes.end()) {
-    const auto place = loaded.scene.places.find("analysis.scheme");
-    diagnostics.error(place == loaded.scene.places.end() ? Location{} : place->second,
+    diagnostics.error(place_of("analysis.scheme"),
                       fmt::format("scheme '{}' is not known{}", scheme, did_you_mean(scheme, schemes)));
+  }
+  const AnalysisOptions& analysis = loaded.scene.analysis;
+  const std::vector<std::string> integrators = flight_method_names();
+  if (std::find(integrators.begin(), integrators.end(), analysis.integrator) == integrators.end()) {
+    diagnostics.error(place_of("analysis.integrator"),
+                      fmt::format("integrator '{}' is not known{}", analysis.integrator, did_you_mean(analysis.integrator, integrators)));
+  }
+  if (analysis.integrator == "alpha-os" && analysis.rho_infinity < least_rho_of_alpha_os) {
+    diagnostics.error(place_of("analysis.rho_infinity"), fmt::format("rho_infinity = {:g}, must lie in [{:g}, 1] for integrator \"alpha-os\"",
+                                                                     analysis.rho_infinity, least_rho_of_alpha_os));
   }
   const std::vector<std::string> algorithms = algorithm_choices();
   for (const std::string& algorithm : loaded.scene.analysis.algorithm) {
-    const auto place = loaded.scene.places.find("analysis.algorithm");
-    const Location at = place == loaded.scene.places.end() ? Location{} : place->second;
+    const Location at = place_of("analysis.algorithm");
     if (std::find(algorithms.begin(), algorithms.end(), algorithm) == algorithms.end()) {
       diagnostics.error(at, fmt::format("algorithm '{}' is not known{}", algorithm, did_you_mean(algorithm, algorithms)));
     } else if (algorithm == "auto" && loaded.scene.analysis.algorithm.size() > 1) {

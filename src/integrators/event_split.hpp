@@ -1,11 +1,10 @@
-// The scheme `event-split` (theory.md, section 20): the theta-method between impacts that are located within the step, sustained contact at
-// position level. Parts of a step keep the factored matrix of the whole step (part_flow.hpp).
+// The scheme `event-split` (theory.md, section 20): a time integration method (flight_method.hpp) between impacts that are located within
+// the step, sustained contact at position level. Steps near contact go in parts, all by one factored matrix (part_flow.hpp).
 #pragma once
 
-#include "integrators/algorithms.hpp"
+#include "integrators/flight_method.hpp"
 #include "integrators/impact_matrix.hpp"
 #include "integrators/part_flow.hpp"
-#include "integrators/scheme.hpp"
 
 namespace nsframe {
 
@@ -14,8 +13,10 @@ class EventSplit : public Scheme {
   EventSplit(const AnalysisOptions& options, const System& system);
   std::string name() const override { return "event-split"; }
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
-  ModeResponse mode_response(double w, double xi, double h) const override;
-  long factorizations() const override { return matrix_.factorizations(); }
+  ModeResponse mode_response(double w, double xi, double h) const override { return method_->mode_response(w, xi, h); }
+  long factorizations() const override { return method_->factorizations() + parts_.matrix.factorizations(); }
+  double struck_frequency() const override { return struck_; }
+  std::vector<std::string> describe() const override;
   void save(Snapshot& snapshot) const override;
   void restore(System& system, const Snapshot& snapshot) override;
 
@@ -25,28 +26,36 @@ class EventSplit : public Scheme {
     enum class Kind { none, closes, opens } kind = Kind::none;
     int pair = -1;
   };
-  // Contact at the start of a run, or after another scheme's step.
-  void start(System& system, const State& committed);
-  // Moves what has no mass to where it rests.
-  void rest_massless(System& system, double sufficient);
-  PartLoad part_load(const System& system, double time, double length) const;
-  void begin_flow(const System& system, double time, double length, const std::vector<int>& held);
-  bool clear(const System& system, double h);
-  class WholeStep;
-  // A step without contact, which begin_whole() has begun; by the solution algorithms where something is nonlinear.
-  void take_whole(System& system, double time, StepResult& result);
-  // Ends a part of length s that moved by `change` at the mean velocity `mean`: energies, and histories where they have been written.
-  void account(const System& system, double time, double s, const VectorX& change, const VectorX& old_velocity, const VectorX& old_force,
-               StepResult& result);
-  // Throws ConvergenceError where a pair overlaps.
-  void check_gaps(const System& system, double time) const;
+  // A whole step without contact; false, with everything as before, where a pair might close in it.
+  bool fly(System& system, double time, double h, StepResult& result);
+  // Far from contact: the gaps at one end are larger than what their rates there could do in the whole step.
+  bool clear(const System& system, const Motion& motion, double h) const;
   Event find_event(double length);
   // Moves on to the next event, at most by `length`; returns by how much.
   double advance(System& system, double time, double length, StepResult& result);
-  void evaluate(System& system, double s, double time, StepResult& result);
+  // Throws ConvergenceError where a pair overlaps.
+  void check_gaps(const System& system, double time, double h) const;
   void find_gaps(const System& system);
   double gap_tolerance(const System& system, int pair) const;
   double rate_tolerance() const;
+  // How much later what touches without rate must be open, with `remaining` of the part left [s].
+  double look_ahead(double remaining) const;
+
+  // Motion over parts of a step (event_split_parts.cpp). Contact at the start of a run, or after another scheme's step:
+  void start(System& system, const State& committed);
+  double start_tolerance(const System& system, int pair) const;  // of a gap that is zero [m]
+  // In how many parts a step h near contact goes: as many as what a struck point does by itself asks for.
+  int parts_of(double h) const;
+  void prepare_parts(const System& system, double h);
+  // Moves what has no mass to where it rests.
+  void rest_massless(System& system, double sufficient);
+  // Its first step: where the stiffness at rest leads by a residual force, with the gaps of closed pairs at such DOFs unchanged.
+  VectorX massless_change(const System& system, const VectorX& residual) const;
+  PartLoad part_load(const System& system, double time, double length) const;
+  void begin_flow(const System& system, double time, double length, const std::vector<int>& held);
+  void evaluate(System& system, double s, double time, StepResult& result);
+  // Energies of a part or step of length s that began with `start`; `dissipated` [J] where its formulas tell.
+  void account(const System& system, const Motion& start, double time, double s, std::optional<double> dissipated, StepResult& result);
 
   // Impacts at this time, until no gap that is zero closes any more; then which pairs stay closed (event_split_contact.cpp).
   void collide(const System& system, double time, double remaining, StepResult& result);
@@ -71,16 +80,16 @@ class EventSplit : public Scheme {
   MatrixX opening(const System& system, const std::vector<int>& pairs, double s);
 
   AnalysisOptions options_;
-  IterationMatrix matrix_;
+  std::unique_ptr<FlightMethod> method_;
   ImpactMatrix impact_;
-  Ladder ladder_;
-  double least_scale_;                  // force that counts as zero [N]
+  FactoredStiffness parts_;             // with the stiffness at rest
   PartFlow flow_;
-  SparseMatrix stiffness_;              // in the factors
   std::vector<bool> massless_;
-  double step_length_ = 0;
+  double struck_ = 0;                   // circular frequency of a struck point by itself, the highest [rad/s]
+  double last_contact_ = -1e300;        // [s]
+  double part_length_ = 0;              // longest part of the step [s]
   // where the motion stands
-  VectorX q_, v_, force_;               // displacement, velocity, internal force
+  Motion now_;
   std::vector<int> closed_;             // pairs in sustained contact, ascending
   std::vector<bool> touching_;          // open pairs whose gap is zero
   VectorX offset_;                      // rounding taken out of gaps that are zero [m]
@@ -92,6 +101,7 @@ class EventSplit : public Scheme {
   double largest_approach_ = 0;         // [m/s]
   VectorX last_displacement_, last_velocity_;
   // work space
+  Motion next_;
   VectorX history_;
   GapCoefficients path_;                // of the gaps in the flow
   const VectorX* from_ = nullptr;       // histories at the start of the part, and where its end goes

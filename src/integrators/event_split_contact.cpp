@@ -14,7 +14,7 @@ namespace nsframe {
 namespace {
 
 constexpr int most_impact_rounds = 1000;      // impacts at one time one after another; then all touching pairs end them plastically
-constexpr double shortest_tail = 0.1;  // of the step: ever faster bounces that end within it are one plastic impact
+constexpr double shortest_tail = 0.1;  // of the longest part: ever faster bounces that end within it are one plastic impact
 
 }  // namespace
 
@@ -29,9 +29,9 @@ VectorX EventSplit::solve_forces(const System& system, const MatrixX& W, const s
 }
 
 const EventSplit::Contact& EventSplit::contact(const System& system, int pair) {
-  if (contacts_factored_ != matrix_.factorizations()) {
+  if (contacts_factored_ != parts_.matrix.factorizations()) {
     contacts_.assign(static_cast<std::size_t>(system.contacts().size()), {});
-    contacts_factored_ = matrix_.factorizations();
+    contacts_factored_ = parts_.matrix.factorizations();
     for (MatrixX* known : {&delassus_, &response_, &second_response_}) {
       known->setConstant(system.contacts().size(), system.contacts().size(), std::numeric_limits<double>::quiet_NaN());
     }
@@ -40,12 +40,12 @@ const EventSplit::Contact& EventSplit::contact(const System& system, int pair) {
   if (cached.momentum.size() > 0) return cached;
   const auto momentum = [&](const VectorX& velocity) {
     VectorX result = system.mass() * velocity;
-    system.damping.add_force(system.assembler.blocks(), options_.theta * step_length_, velocity, result);
+    system.damping.add_force(system.assembler.blocks(), method_->part_theta() * part_length_, velocity, result);
     return result;
   };
-  const VectorX once = momentum(matrix_.response(system.contacts(), pair));
+  const VectorX once = momentum(parts_.matrix.response(system.contacts(), pair));
   VectorX again;
-  matrix_.solve(once, again);
+  parts_.matrix.solve(once, again);
   cached.first = once;
   cached.momentum = 2 * once - momentum(again);
   cached.jump = impact_.velocity_change(cached.momentum);
@@ -74,15 +74,15 @@ MatrixX EventSplit::delassus(const System& system, const std::vector<int>& pairs
 MatrixX EventSplit::opening(const System& system, const std::vector<int>& pairs, double s) {
   for (const int c : pairs) contact(system, c);
   const Contacts& contacts = system.contacts();
-  const MatrixX first = gather(response_, pairs, [&](int a, int b) { return contacts.jacobian.row(a).dot(matrix_.response(contacts, b)); });
-  const MatrixX second = gather(second_response_, pairs, [&](int a, int b) { return contact(system, b).first.dot(matrix_.response(contacts, a)); });
-  const double f = s / step_length_, g = 1 - f * f;
-  return options_.theta * s * s * ((1 + g) * first - g * second);
+  const MatrixX first = gather(response_, pairs, [&](int a, int b) { return contacts.jacobian.row(a).dot(parts_.matrix.response(contacts, b)); });
+  const MatrixX second = gather(second_response_, pairs, [&](int a, int b) { return contact(system, b).first.dot(parts_.matrix.response(contacts, a)); });
+  const double f = s / part_length_, g = 1 - f * f;
+  return method_->part_theta() * s * s * ((1 + g) * first - g * second);
 }
 
 void EventSplit::collide(const System& system, double time, double remaining, StepResult& result) {
   for (int c = 0; c < system.contacts().size(); ++c) {
-    if (is_closed(c) || touching_[static_cast<std::size_t>(c)]) rate_[c] = contact(system, c).momentum.dot(v_);
+    if (is_closed(c) || touching_[static_cast<std::size_t>(c)]) rate_[c] = contact(system, c).momentum.dot(now_.v);
   }
   for (int round = 0; round <= most_impact_rounds; ++round) {
     const bool last = round == most_impact_rounds;
@@ -98,7 +98,7 @@ std::vector<int> EventSplit::accumulating(const System& system, const std::vecto
     if (is_closed(c) || !(rate_[c] > rate_tolerance())) continue;
     const double e = system.contacts().restitution[c];
     // the flow returns after -c1 / c2, and all further bounces take 1 / (1 - e) times as long
-    if (path_(c, 1) < 0 && path_(c, 0) <= -path_(c, 1) * shortest_tail * step_length_ * (1 - e)) found.push_back(c);
+    if (path_(c, 1) < 0 && path_(c, 0) <= -path_(c, 1) * shortest_tail * part_length_ * (1 - e)) found.push_back(c);
   }
   return found;
 }
@@ -118,7 +118,7 @@ bool EventSplit::collide_once(const System& system, double time, double remainin
   const auto count = static_cast<Eigen::Index>(pairs.size());
   const MatrixX W = delassus(system, pairs);
   for (const int c : pairs) largest_approach_ = std::max(largest_approach_, -rate_[c]);
-  const VectorX before = rate_(pairs), velocity = v_;
+  const VectorX before = rate_(pairs), velocity = now_.v;
   std::vector<bool> plastic(pairs.size(), last);
   for (std::size_t k = 0; k < pairs.size(); ++k) plastic[k] = plastic[k] || is_closed(pairs[k]);
   VectorX impulse, change, restitution(count);
@@ -130,11 +130,11 @@ bool EventSplit::collide_once(const System& system, double time, double remainin
     impulse = options_.impact_law == ImpactLaw::newton
                   ? solve_forces(system, W, pairs, before + restitution.cwiseProduct(before), result)
                   : poisson_impact(W, before, restitution, [&](const ContactProblem& p) { return solve_forces(system, W, pairs, p.rhs, result); }).impulse;
-    change.setZero(v_.size());
+    change.setZero(now_.v.size());
     for (Eigen::Index k = 0; k < count; ++k) {
       if (impulse[k] > 0) change += impulse[k] * contact(system, pairs[static_cast<std::size_t>(k)]).jump;
     }
-    v_ = velocity + change;
+    now_.v = velocity + change;
     rate_(pairs) = before + W * impulse;
     begin_flow(system, time, remaining, {});
     const std::vector<int> more = last ? std::vector<int>() : accumulating(system, pairs);
@@ -143,6 +143,10 @@ bool EventSplit::collide_once(const System& system, double time, double remainin
     for (std::size_t k = 0; k < pairs.size(); ++k) plastic[k] = plastic[k] || std::binary_search(more.begin(), more.end(), pairs[k]);
   }
   result.created += created_energy(W, impulse, before, rate_(pairs));
+  for (int c = 0; c < system.contacts().size(); ++c) {  // pairs that were leaving may close now
+    const bool struck = std::binary_search(pairs.begin(), pairs.end(), c);
+    if (touching_[static_cast<std::size_t>(c)] && !struck) rate_[c] = contact(system, c).momentum.dot(now_.v);
+  }
   result.contact -= change.dot(system.mass() * (velocity + 0.5 * change));
   for (Eigen::Index k = 0; k < count; ++k) {
     if (!(impulse[k] > 0)) continue;
@@ -163,13 +167,14 @@ void EventSplit::settle(const System& system, double time, double remaining, Ste
   }
   if (!candidates.empty()) {
     const auto count = static_cast<Eigen::Index>(candidates.size());
-    // constant forces that keep the gaps open at the end of the step
+    // constant forces that keep the gaps open from now on
+    const double s = look_ahead(remaining);
     VectorX rhs(count);
     for (Eigen::Index b = 0; b < count; ++b) {
       const int c = candidates[static_cast<std::size_t>(b)];
-      rhs[b] = remaining * (path_(c, 0) + remaining * (path_(c, 1) + remaining * (path_(c, 2) + remaining * path_(c, 3))));
+      rhs[b] = s * (path_(c, 0) + s * (path_(c, 1) + s * (path_(c, 2) + s * path_(c, 3))));
     }
-    const VectorX force = solve_forces(system, opening(system, candidates, remaining), candidates, rhs, result);
+    const VectorX force = solve_forces(system, opening(system, candidates, s), candidates, rhs, result);
     const double most = force.maxCoeff();
     for (Eigen::Index k = 0; k < count; ++k) {
       if (force[k] > 1e-12 * most) closed.push_back(candidates[static_cast<std::size_t>(k)]);
@@ -187,7 +192,7 @@ void EventSplit::settle(const System& system, double time, double remaining, Ste
 void EventSplit::remove_drift(const System& system) {
   if (closed_.empty()) return;
   flow_.hold(system.contacts(), closed_);
-  flow_.close_gaps(VectorX(gap_(closed_)), q_);
+  flow_.close_gaps(VectorX(gap_(closed_)), now_.q);
   find_gaps(system);
 }
 

@@ -28,7 +28,7 @@ IterationMatrix::IterationMatrix(const System& system, IterationMatrixOptions op
   }
 }
 
-void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness, double a) {
+void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness, double a, double b) {
   ++factorizations_;
   a_ = -1;
   solves_ = 0;
@@ -40,7 +40,7 @@ void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness
   for (Block& block : blocks_) {
     while (system.assembler.blocks()[structure].size() == 0) ++structure;
     block.modal = &system.damping.modal[structure++];
-    SparseMatrix J = a * a * extract_block(stiffness, block.range);
+    SparseMatrix J = b * extract_block(stiffness, block.range);
     J += extract_block(system.mass(), block.range);
     if (system.damping.viscous.nonZeros() > 0) J += a * extract_block(system.damping.viscous, block.range);
     if (system.damping.tangent.nonZeros() > 0) J += a * extract_block(system.damping.tangent, block.range);
@@ -58,6 +58,7 @@ void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness
   }
   if (linear_) speed_up();
   a_ = a;
+  b_ = b;
 }
 
 void IterationMatrix::speed_up() {
@@ -76,29 +77,30 @@ void IterationMatrix::speed_up() {
   solves_ = solves_before_speed_up;
 }
 
-void IterationMatrix::save(Snapshot& snapshot) const {
-  snapshot.put("iteration_matrix.a", a_);
-  snapshot.put("iteration_matrix.factorizations", static_cast<double>(factorizations_));
-  snapshot.put("iteration_matrix.solves", static_cast<double>(solves_));
-  snapshot.put("iteration_matrix.stiffness", stiffness_);
-  snapshot.put("iteration_matrix.damping", damping_);
+void IterationMatrix::save(Snapshot& snapshot, const std::string& name) const {
+  snapshot.put(name + ".a", a_);
+  snapshot.put(name + ".b", b_);
+  snapshot.put(name + ".factorizations", static_cast<double>(factorizations_));
+  snapshot.put(name + ".solves", static_cast<double>(solves_));
+  snapshot.put(name + ".stiffness", stiffness_);
+  snapshot.put(name + ".damping", damping_);
 }
 
-void IterationMatrix::restore(System& system, const Snapshot& snapshot) {
-  const double a = snapshot.number("iteration_matrix.a");
+void IterationMatrix::restore(System& system, const Snapshot& snapshot, const std::string& name) {
+  const double a = snapshot.number(name + ".a");
   if (a > 0) {
     SparseMatrix stiffness = system.assembler.tangent();
     Eigen::Map<VectorX> values(stiffness.valuePtr(), stiffness.nonZeros());
-    snapshot.read("iteration_matrix.stiffness", values);
+    snapshot.read(name + ".stiffness", values);
     if (system.damping.follows_tangent()) {
       Eigen::Map<VectorX> damping(system.damping.tangent.valuePtr(), system.damping.tangent.nonZeros());
-      snapshot.read("iteration_matrix.damping", damping);
+      snapshot.read(name + ".damping", damping);
     }
-    factor(system, stiffness, a);
-    solves_ = static_cast<int>(snapshot.number("iteration_matrix.solves"));
+    factor(system, stiffness, a, snapshot.number(name + ".b"));
+    solves_ = static_cast<int>(snapshot.number(name + ".solves"));
     if (solves_ >= solves_before_speed_up) speed_up();
   }
-  factorizations_ = static_cast<long>(snapshot.number("iteration_matrix.factorizations"));
+  factorizations_ = static_cast<long>(snapshot.number(name + ".factorizations"));
 }
 
 void IterationMatrix::factor_dense(Block& block, MatrixX J) const {

@@ -1,4 +1,4 @@
-// J = M + a C + a^2 K with a = theta h (theory.md, eq. 9), factored block by block, one block a connected structure.
+// J = M + a C + b K (theory.md: a = theta h, b = a^2 in (9); (302)), factored block by block, one block a connected structure.
 // Small structures: dense, with an explicit inverse once the factors have served so often that it pays. Large
 // ones: sparse, with the low-rank modal damping added by the Woodbury identity so that J keeps the pattern of K; their factors, too, are put
 // in a faster form once they have served often.
@@ -23,13 +23,15 @@ class IterationMatrix {
   explicit IterationMatrix(const System& system, IterationMatrixOptions options = {});
 
   // Factors J; throws ConvergenceError when a block is singular, naming the structure.
-  void factor(const System& system, const SparseMatrix& stiffness, double a);
-  bool ready(double a) const { return a_ == a; }
+  void factor(const System& system, const SparseMatrix& stiffness, double a, double b);
+  void factor(const System& system, const SparseMatrix& stiffness, double a) { factor(system, stiffness, a, a * a); }
+  bool ready(double a, double b) const { return a_ == a && b_ == b; }
+  bool ready(double a) const { return ready(a, a * a); }
   long factorizations() const { return factorizations_; }
 
   // The factors stay in use for many steps: a snapshot holds the stiffness that they were made from.
-  void save(Snapshot& snapshot) const;
-  void restore(System& system, const Snapshot& snapshot);
+  void save(Snapshot& snapshot, const std::string& name = "iteration_matrix") const;
+  void restore(System& system, const Snapshot& snapshot, const std::string& name = "iteration_matrix");
 
   // x = J^-1 rhs; x and rhs may not be the same.
   void solve(const VectorX& rhs, VectorX& x);
@@ -64,7 +66,7 @@ class IterationMatrix {
   static void add_modal_damping(const Block& block, VectorX& solution);
 
   bool symmetric_, linear_;
-  double a_ = -1;
+  double a_ = -1, b_ = -1;
   long factorizations_ = 0;
   std::vector<double> stiffness_;         // entries of the factored one, in the order of Assembler::tangent()
   std::vector<double> damping_;           // entries of Damping::tangent in the factored one

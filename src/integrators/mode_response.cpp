@@ -2,14 +2,37 @@
 
 #include <complex>
 
+#include "base/decompositions.hpp"
+
 namespace nsframe {
+
+namespace {
+
+Scheme::ModeResponse response_of(std::complex<double> eigenvalue, double h) {
+  const std::complex<double> exponent = std::log(eigenvalue) / h;
+  return {-exponent.real() / std::abs(exponent), std::abs(exponent)};
+}
+
+Eigen::VectorXcd eigenvalues(const Eigen::Matrix3d& matrix) { return Eigen::EigenSolver<MatrixX>(MatrixX(matrix), false).eigenvalues(); }
+
+}  // namespace
 
 Scheme::ModeResponse response_of(const Eigen::Matrix2d& amplification, double h) {
   const double half_trace = 0.5 * amplification.trace();
-  const std::complex<double> root = std::sqrt(std::complex<double>(half_trace * half_trace - amplification.determinant(), 0));
-  const std::complex<double> exponent = std::log(half_trace + root) / h;
-  return {-exponent.real() / std::abs(exponent), std::abs(exponent)};
+  return response_of(half_trace + std::sqrt(std::complex<double>(half_trace * half_trace - amplification.determinant(), 0)), h);
 }
+
+Scheme::ModeResponse response_of(const Eigen::Matrix3d& amplification, double h) {
+  const Eigen::VectorXcd roots = eigenvalues(amplification);
+  std::complex<double> found = roots[0];
+  for (const std::complex<double>& root : roots) {
+    const double turns = root.imag() - found.imag();
+    if (turns > 0 || (turns == 0 && std::abs(root) > std::abs(found))) found = root;
+  }
+  return response_of(found, h);
+}
+
+double spectral_radius(const Eigen::Matrix3d& amplification) { return eigenvalues(amplification).cwiseAbs().maxCoeff(); }
 
 Scheme::ModeResponse theta_method_response(double theta, double w, double xi, double h) {
   if (w == 0) return {0, 0};

@@ -54,7 +54,6 @@ void PartFlow::solve(const VectorX& rhs, VectorX& x, VectorX* forces) {
 }
 
 void PartFlow::begin(const System& system, const VectorX& v, const VectorX& P, const PartLoad& load, const std::vector<bool>& massless) {
-  whole_ = false;
   const double a = theta_ * h_;
   const auto momentum = [&](const VectorX& velocity, VectorX& result) {  // (M + a C) velocity
     result.noalias() = system.mass() * velocity;
@@ -86,36 +85,12 @@ void PartFlow::begin(const System& system, const VectorX& v, const VectorX& P, c
   impulse_[1] += 0.5 * l3;
 }
 
-void PartFlow::begin_whole(const System& system, const VectorX& v, const VectorX& P, const VectorX& impulse, const std::vector<bool>& massless) {
-  whole_ = true;
-  held_.clear();
-  rhs_ = theta_ * (impulse - h_ * P);
-  rhs_.noalias() += system.mass() * v;
-  v_ = v;
-  massless_ = &massless;
-  matrix_.solve(rhs_, move_[0]);
-  set_whole(VectorX(move_[0]));
-}
-
-void PartFlow::set_whole(const VectorX& mean) {
-  move_[0] = mean;
-  for (Eigen::Index i = 0; i < v_.size(); ++i) {
-    if ((*massless_)[static_cast<std::size_t>(i)]) v_[i] = mean[i];
-  }
-  speed_[0] = (mean - v_) / (theta_ * h_);
-}
-
 VectorX PartFlow::mean_velocity(double s) const {
-  if (whole_) return move_[0];
   return move_[0] + s * (move_[1] + s * (move_[2] + s * move_[3]));
 }
 
 void PartFlow::velocity(double s, VectorX& v) const {
-  if (whole_) {
-    v = v_ + s * speed_[0];
-  } else {
-    v = v_ + s * (speed_[0] + s * (speed_[1] + s * (speed_[2] + s * speed_[3])));
-  }
+  v = v_ + s * (speed_[0] + s * (speed_[1] + s * (speed_[2] + s * speed_[3])));
 }
 
 void PartFlow::gap_coefficients(const Contacts& contacts, GapCoefficients& c) const {

@@ -1,4 +1,4 @@
-// The motion over any part of a step with the factored matrix of the whole step (theory.md, 290-294). The theta-method over a part s = f h
+// The motion over any part of a length h with the factored matrix of that length (theory.md, 290-294). The theta-method over a part s = f h
 // needs J(s) = M + f a C + f^2 a^2 K, a = theta h; here J(s)^-1 is the beginning of its series in what J(h) lacks of it,
 //   J(s)^-1 ~ [1 + (1 - f^2) Y] J^-1,   Y = 1 - J^-1 (M + a C),   J = J(h),
 // so that motion, gaps and contact forces are polynomials in s. At s = h this is the theta-method; at any s it does not grow.
@@ -21,21 +21,14 @@ class PartFlow {
  public:
   PartFlow(double theta, IterationMatrix& matrix) : theta_(theta), matrix_(matrix) {}
 
-  // Whole step h [s]; `stiffness`: the one that is in the factors, which are ready for theta h.
-  void set_step(double h) { h_ = h; }
+  // Longest part h [s]; the factors are ready for theta h.
+  void set_longest(double h) { h_ = h; }
   // Pairs whose gaps stay as they are; ascending.
   void hold(const Contacts& contacts, const std::vector<int>& closed);
   // From velocity v and internal force P.
   void begin(const System& system, const VectorX& v, const VectorX& P, const PartLoad& load, const std::vector<bool>& massless);
 
   void velocity(double s, VectorX& v) const;
-  // Over the whole step only, with nothing held: one solution in place of four or five. `impulse`: of the loads [N s].
-  void begin_whole(const System& system, const VectorX& v, const VectorX& P, const VectorX& impulse, const std::vector<bool>& massless);
-
-  // The step so begun moves at this mean velocity.
-  void set_whole(const VectorX& mean);
-  bool whole() const { return whole_; }
-
   VectorX mean_velocity(double s) const;
   // Of all pairs: g(s) - g = s (c_0 + s c_1 + s^2 c_2 + s^3 c_3), a column a coefficient.
   void gap_coefficients(const Contacts& contacts, GapCoefficients& c) const;
@@ -61,9 +54,7 @@ class PartFlow {
   bool redundant_ = false;                   // of the held pairs, to rounding: then by `set_`
   Eigen::LLT<MatrixX> cholesky_;             // of the scaled H J^-1 H' of the held pairs
   Eigen::CompleteOrthogonalDecomposition<MatrixX> set_;
-  bool whole_ = false;                       // the first coefficients are all
   VectorX v_, rhs_;
-  const std::vector<bool>* massless_ = nullptr;
   std::array<VectorX, 4> move_, speed_;      // coefficients of [q(s) - q] / s and of v(s) - v: s^0.., s^1..
   std::array<VectorX, 2> impulse_;           // s^1, s^2 of the held pairs' impulses: their forces are linear
 };

@@ -17,6 +17,7 @@ namespace nsframe {
 struct StepResult {
   int newton_iterations = 0;
   int evaluations = 0;               // of all elements, where the scheme counts them
+  int stiffened_steps = 0;           // made by the implicit form of alpha-OS (alpha_os.cpp)
   int rejected_parts = 0;            // of the step, made anew with half the length
   int solves = 0;                    // of the linearised step
   bool guess_stood = false;          // no iteration was needed
@@ -51,6 +52,9 @@ class Scheme {
   virtual ModeResponse mode_response(double w, double xi, double h) const = 0;
 
   virtual long factorizations() const = 0;
+
+  // The highest circular frequency at which a struck point rings by itself, where the scheme steps through that [rad/s]; else 0.
+  virtual double struck_frequency() const { return 0; }
 
   // Whether a step that threw ConvergenceError is worth trying in halves.
   virtual bool shorter_steps_help() const { return true; }

@@ -25,6 +25,8 @@ void check_options(const AnalysisOptions& options) {
   };
   require_that(options.dt > 0 && std::isfinite(options.dt), fmt::format("analysis.dt = {} s, must be positive", options.dt));
   require_that(options.theta >= 0.5 && options.theta <= 1, fmt::format("analysis.theta = {}, must lie in [0.5, 1]", options.theta));
+  require_that(options.rho_infinity >= 0 && options.rho_infinity <= 1,
+               fmt::format("analysis.rho_infinity = {}, must lie in [0, 1]", options.rho_infinity));
   require_that(options.gamma >= 0, fmt::format("analysis.gamma = {}, must not be negative", options.gamma));
   require_that(options.duration >= 0, fmt::format("analysis.duration = {} s, must not be negative", options.duration));
   require_that(options.newton_tolerance > 0, "analysis.newton_tolerance must be positive");
@@ -137,6 +139,9 @@ Summary Simulation::outline() const {
   summary.dt = options_.dt;
   summary.theta = options_.theta;
   summary.gamma = options_.gamma;
+  if (scheme_->name() == "event-split") summary.integrator = options_.integrator;
+  summary.rho_infinity = options_.rho_infinity;
+  summary.struck_frequency = scheme_->struck_frequency() / (2 * pi);
   summary.duration = duration();
   summary.dofs = model_.dofs.size();
   summary.nodes = model_.nodes.size();
@@ -198,6 +203,7 @@ Summary Simulation::run(const std::vector<Observer*>& observers, const RunContro
   summary.halved_steps = result.halved_steps;
   summary.evaluations = result.evaluations;
   summary.rejected_parts = result.rejected_parts;
+  summary.stiffened_steps = result.stiffened_steps;
   summary.laddered_steps = result.laddered_steps;
   summary.ladder = std::move(result.ladder);
   summary.factorizations = scheme_->factorizations();

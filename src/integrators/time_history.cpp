@@ -25,6 +25,7 @@ void visit_sums(Sums& sums, const Visit& visit) {
   visit("solves", sums.solves);
   visit("evaluations", sums.evaluations);
   visit("rejected_parts", sums.rejected_parts);
+  visit("stiffened_steps", sums.stiffened_steps);
   visit("quiet_fibers", sums.quiet_fibers);
   visit("quiet_samples", sums.quiet_samples);
   visit("kinetic", sums.energy.kinetic);
@@ -139,6 +140,7 @@ void TimeHistory::add(const StepResult& step, double time) {
   result_.solves += step.solves;
   result_.evaluations += step.evaluations;
   result_.rejected_parts += step.rejected_parts;
+  result_.stiffened_steps += step.stiffened_steps;
   if (step.guess_stood) ++result_.guessed_steps;
   result_.max_complementarity_error = std::max(result_.max_complementarity_error, step.complementarity_error);
   result_.max_penetration = std::max(result_.max_penetration, -step.least_gap);

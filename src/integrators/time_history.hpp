@@ -14,7 +14,7 @@ inline constexpr std::size_t most_ladder_records = 200;
 struct RunSums {
   int steps = 0;
   long newton_iterations = 0, halved_steps = 0, laddered_steps = 0;
-  long guessed_steps = 0, solves = 0, evaluations = 0, rejected_parts = 0;
+  long guessed_steps = 0, solves = 0, evaluations = 0, rejected_parts = 0, stiffened_steps = 0;
   double quiet_fibers = 0;           // sum over the steps looked at
   long quiet_samples = 0;
   Energy energy;

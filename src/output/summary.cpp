@@ -16,14 +16,14 @@ std::string pair_name(const Summary& summary, int pair) {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr double undamped = 1e-9;  // damping ratios below are rounding
 
-Json to_json(const Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
+OrderedJson to_json(const Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
-Json impacts_json(const Summary& summary) {
-  Json list = Json::array();
+OrderedJson impacts_json(const Summary& summary) {
+  OrderedJson list = OrderedJson::array();
   for (const auto& impact : summary.impacts) {
     list.push_back({{"t", impact.time},
                     {"pair", pair_name(summary, impact.pair)},
@@ -36,8 +36,8 @@ Json impacts_json(const Summary& summary) {
   return list;
 }
 
-Json poundings_json(const Summary& summary) {
-  Json list = Json::array();
+OrderedJson poundings_json(const Summary& summary) {
+  OrderedJson list = OrderedJson::array();
   for (const auto& pounding : summary.poundings) {
     list.push_back({{"t", pounding.time},
                     {"duration", pounding.duration},
@@ -50,18 +50,18 @@ Json poundings_json(const Summary& summary) {
   return list;
 }
 
-Json friction_json(const Summary& summary) {
-  Json list = Json::array();
+OrderedJson friction_json(const Summary& summary) {
+  OrderedJson list = OrderedJson::array();
   for (const Slip& slip : summary.slips) {
     list.push_back({{"pair", pair_name(summary, slip.pair)}, {"slip", slip.distance}, {"energy", slip.energy}});
   }
   return list;
 }
 
-Json ladder_json(const std::vector<LadderRecord>& records) {
-  Json list = Json::array();
+OrderedJson ladder_json(const std::vector<LadderRecord>& records) {
+  OrderedJson list = OrderedJson::array();
   for (const auto& record : records) {
-    Json attempts = Json::array();
+    OrderedJson attempts = OrderedJson::array();
     for (const auto& attempt : record.attempts) {
       attempts.push_back({{"algorithm", attempt.algorithm},
                           {"iterations", attempt.iterations},
@@ -75,8 +75,8 @@ Json ladder_json(const std::vector<LadderRecord>& records) {
 }
 
 // The whole curve is in results.h5; here its ends and its largest load factor.
-Json stages_json(const Summary& summary) {
-  Json list = Json::array();
+OrderedJson stages_json(const Summary& summary) {
+  OrderedJson list = OrderedJson::array();
   for (const auto& stage : summary.stages) {
     const auto by_factor = [](const StagePoint& a, const StagePoint& b) { return a.load_factor < b.load_factor; };
     const auto [least, most] = std::minmax_element(stage.points.begin(), stage.points.end(), by_factor);
@@ -100,8 +100,8 @@ Json stages_json(const Summary& summary) {
   return list;
 }
 
-Json peaks_json(const Summary& summary) {
-  Json list = Json::array();
+OrderedJson peaks_json(const Summary& summary) {
+  OrderedJson list = OrderedJson::array();
   for (const auto& peak : summary.peaks) {
     list.push_back({{"node", peak.node},
                     {"displacement", to_json(peak.displacement)},
@@ -112,8 +112,8 @@ Json peaks_json(const Summary& summary) {
   return list;
 }
 
-Json drifts_json(const Summary& summary) {
-  Json list = Json::array();
+OrderedJson drifts_json(const Summary& summary) {
+  OrderedJson list = OrderedJson::array();
   for (const auto& drift : summary.drifts) {
     list.push_back({{"structure", drift.structure},
                     {"story", drift.story},
@@ -124,8 +124,8 @@ Json drifts_json(const Summary& summary) {
   return list;
 }
 
-Json floor_spectra_json(const Summary& summary) {
-  Json list = Json::array();
+OrderedJson floor_spectra_json(const Summary& summary) {
+  OrderedJson list = OrderedJson::array();
   for (const auto& peak : summary.floor_spectra) {
     list.push_back({{"node", peak.node},
                     {"direction", std::string(1, static_cast<char>('x' + peak.direction))},
@@ -138,7 +138,7 @@ Json floor_spectra_json(const Summary& summary) {
   return list;
 }
 
-Json energy_json(const Summary& summary) {
+OrderedJson energy_json(const Summary& summary) {
   const Energy& energy = summary.energy;
   return {{"kinetic", energy.kinetic},
           {"strain", energy.strain},
@@ -152,8 +152,8 @@ Json energy_json(const Summary& summary) {
           {"worst_relative_balance_error", summary.worst_balance_error}};
 }
 
-Json modes_json(const Summary& summary) {
-  Json list = Json::array();
+OrderedJson modes_json(const Summary& summary) {
+  OrderedJson list = OrderedJson::array();
   for (const auto& mode : summary.modes) {
     list.push_back({{"structure", mode.structure},
                     {"mode", mode.mode},
@@ -224,10 +224,12 @@ void warn_of_damping(const Summary& summary, const std::vector<ModeNumerics>& mo
   for (const ModeNumerics* mode : named) list += (list.empty() ? "" : ", ") + added_to(*mode);
   const auto others = damped.size() - named.size();
   if (others > 0) list += fmt::format(", and too much to {} other mode{}", others, others == 1 ? "" : "s");
-  warnings.push_back(fmt::format("theta = {:g} at dt = {:g} ms adds damping of its own: {}: {}{}", summary.theta,
-                                 1e3 * summary.dt, list,
+  const bool by_rho = !summary.integrator.empty() && summary.integrator != "theta";
+  const double value = by_rho ? summary.rho_infinity : summary.theta, none = by_rho ? 1 : 0.5;
+  const char* option = by_rho ? "rho_infinity" : "theta";
+  warnings.push_back(fmt::format("{} = {:g} at dt = {:g} ms adds damping of its own: {}: {}{}", option, value, 1e3 * summary.dt, list,
                                  summary.pairs.empty() ? "peaks come out too low" : "impacts may be missed",
-                                 summary.theta > 0.5 ? "; theta = 0.5 adds none" : ""));
+                                 value != none ? fmt::format("; {} = {:g} adds none", option, none) : ""));
 }
 
 void warn_of_shift(const Summary& summary, const std::vector<ModeNumerics>& modes, std::vector<std::string>& warnings) {
@@ -281,7 +283,7 @@ std::vector<std::string> numerical_warnings(const Summary& summary) {
 }
 
 std::string summary_json(const Summary& summary) {
-  const Json json = {
+  const OrderedJson json = {
       {"program", "nsframe"},
       {"version", NSFRAME_VERSION},
       {"title", summary.title},
@@ -294,6 +296,8 @@ std::string summary_json(const Summary& summary) {
       {"duration", summary.duration},
       {"theta", summary.theta},
       {"gamma", summary.gamma},
+      {"integrator", summary.integrator},
+      {"rho_infinity", summary.rho_infinity},
       {"steps", summary.steps},
       {"nodes", summary.nodes},
       {"elements", summary.elements},
@@ -321,6 +325,8 @@ std::string summary_json(const Summary& summary) {
       {"halved_steps", summary.halved_steps},
       {"evaluations", summary.evaluations},
       {"rejected_parts", summary.rejected_parts},
+      {"stiffened_steps", summary.stiffened_steps},
+      {"struck_frequency", summary.struck_frequency},
       {"laddered_steps", summary.laddered_steps},
       {"ladder", ladder_json(summary.ladder)},
       {"factorizations", summary.factorizations},
@@ -338,7 +344,7 @@ std::string summary_json(const Summary& summary) {
        {{"setup", summary.timing.setup}, {"step_loop", summary.timing.step_loop}, {"output", summary.timing.output}}},
       {"warnings", summary.warnings}};
   // Names may come from a file in another encoding: bytes that are not UTF-8 are replaced, not fatal.
-  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + "\n";
 }
 
 void write_summary(const Summary& summary, const std::filesystem::path& path) {

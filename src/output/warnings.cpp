@@ -160,17 +160,27 @@ void of_softened_members(const Model&, const Summary& summary, Sentences& out) {
                             count, count == 1 ? "" : "s", summary.softened_members[0], count > 1 ? ", ..." : ""));
 }
 
-void of_event_split(const Model&, const Summary& summary, Sentences& out) {
-  if (summary.scheme != "event-split" || summary.impacts.empty()) return;
-  out.push_back("event-split does not always settle with dt where impacts follow each other closely or structures yield between them: compare "
-                "with a run of exact, exponential or moreau-jean");
+constexpr double followed = 1;  // angle in a step, up to which a ringing keeps its phase until the next pounding
+
+void of_struck_points(const Model&, const Summary& summary, Sentences& out) {
+  if (summary.impacts.empty() || !(2 * pi * summary.struck_frequency * summary.dt > followed)) return;
+  out.push_back(fmt::format("struck points ring at up to {:.0f} Hz, which steps of {:g} ms do not follow: unless damping ends that before the next "
+                            "pounding, its outcome depends on dt; exact and exponential follow it at any dt",
+                            summary.struck_frequency, 1e3 * summary.dt));
+}
+
+void of_stiffening(const Model&, const Summary& summary, Sentences& out) {
+  if (summary.stiffened_steps == 0) return;
+  out.push_back(fmt::format("members stiffened beyond their stiffness at rest: alpha-OS would be unstable, and {} of {} steps were made by its "
+                            "implicit form; integrator = \"generalized-alpha\" is that everywhere",
+                            summary.stiffened_steps, summary.steps));
 }
 
 using Rule = void (*)(const Model&, const Summary&, Sentences&);
 constexpr Rule rules[]{of_the_scheme,  of_light_contact_nodes, of_effective_restitution,
                        of_penetration, of_short_contacts,      of_coarse_motions,
                        of_created_energy, of_halved_steps,     of_softened_members,
-                       of_event_split};
+                       of_struck_points,       of_stiffening};
 
 }  // namespace
 

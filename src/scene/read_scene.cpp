@@ -54,6 +54,13 @@ void find_scheme(Scene& scene) {
     if (scene.analysis.scheme == "event-split" && !scene.places.contains("analysis.theta")) scene.analysis.theta = 0.5;
     return;
   }
+  for (const char* key : {"integrator", "rho_infinity"}) {
+    if (!scene.places.contains(fmt::format("analysis.{}", key))) continue;
+    scene.analysis.scheme = "event-split";
+    scene.analysis.scheme_reason = fmt::format("analysis.{} is an option of this scheme alone", key);
+    if (!scene.places.contains("analysis.theta")) scene.analysis.theta = 0.5;
+    return;
+  }
   for (const char* key : {"theta", "gamma", "newton_tolerance", "max_newton", "max_halvings", "contact_solver", "projection"}) {
     if (!scene.places.contains(fmt::format("analysis.{}", key))) continue;
     scene.analysis.scheme = "moreau-jean";

@@ -149,7 +149,7 @@ template <class Archive>
 void visit(Archive& ar, AnalysisOptions& a) {
   ar(Field{"scheme",
            "time integration: `moreau-jean`; `exact` for linear scenes, where `dt` only says when results are kept; `exponential` for scenes "
-           "that yield; `event-split`: the theta-method between impacts located within the step; `auto`: `exact` or `exponential` where they "
+           "that yield; `event-split`: `integrator` between impacts located within the step; `auto`: `exact` or `exponential` where they "
            "can be, else `moreau-jean`, which options of its own (`theta`, `gamma`, "
            "`newton_tolerance`, `max_newton`, `max_halvings`, `contact_solver`, `projection`) also choose when no scheme is given"},
      a.scheme);
@@ -161,6 +161,14 @@ void visit(Archive& ar, AnalysisOptions& a) {
   ar(Field{"duration", "model time; 0: length of the longest motion", dimension::time, range::non_negative},
      a.duration);
   ar(Field{"theta", "of the theta-method; the paper uses 1; scheme `event-split` takes 0.5 when none is given", {}, {0.5, 1}}, a.theta);
+  ar(Field{"integrator",
+           "of scheme `event-split`: `theta`, the theta-method; `generalized-alpha` (Chung and Hulbert); `alpha-os`, operator splitting: one "
+           "evaluation of the elements a step and a constant matrix"},
+     a.integrator);
+  ar(Field{"rho_infinity",
+           "of `generalized-alpha`, and in [0.5, 1] of `alpha-os`: what a step leaves of waves far above those that it resolves; 1: all, no numerical damping",
+           {}, {0, 1}},
+     a.rho_infinity);
   ar(Field{"gamma", "a pair is active where g + gamma dt g' < 0; the paper uses 1.5", {}, range::non_negative},
      a.gamma);
   ar(Field{"newton_tolerance", "residual relative to the largest force of the step", {}, range::positive},

@@ -356,6 +356,14 @@ class Commands(unittest.TestCase):
         done = self.nsframe("run", self.scene(text), code=2)
         self.assertRegex(done.stderr, r"s.toml:\d+:11: error: control 'displacemnt' is not known; did you mean 'displacement'\?")
 
+    def test_an_unknown_integrator_or_a_parameter_out_of_its_range_is_bad_input_by_place(self):
+        def told(lines):
+            return self.nsframe("run", self.scene(STUBBORN.replace('algorithm = "newton"', lines)), code=2).stderr
+        self.assertRegex(told('integrator = "generalised-alpha"'),
+                         r"s.toml:\d+:14: error: integrator 'generalised-alpha' is not known; did you mean 'generalized-alpha'\?")
+        self.assertRegex(told('integrator = "alpha-os"\nrho_infinity = 0.3'),
+                         r"s.toml:\d+:16: error: rho_infinity = 0.3, must lie in \[0.5, 1\] for integrator \"alpha-os\"")
+
     def test_a_fault_of_a_contact_law_is_told_once(self):
         for law, words in (("jankovski", "did you mean 'jankowski'?"), ("jankowski", "needs hertz_stiffness")):
             done = self.nsframe("check", BALL, "--set", f"contact.law={law}", code=2)

@@ -100,13 +100,24 @@ TEST_CASE("a step longer than that of the ground motion is told") {
   CHECK(run.warnings()[0] == "dt = 25 ms steps over samples of the ground motion, which are 20 ms apart");
 }
 
-TEST_CASE("event-split warns where there are impacts") {
+TEST_CASE("a ringing of struck points that steps do not follow is told where there are impacts") {
   Run run;
-  run.summary.scheme = "event-split";
+  run.summary.struck_frequency = 400;
+  run.summary.dt = 1e-3;
   CHECK(run.warnings().empty());
   run.summary.impacts.push_back({1, 0, 0.4, 100, -0.4, 0.24});
   REQUIRE(run.warnings().size() == 1);
-  CHECK(run.warnings()[0].find("event-split does not always settle with dt") == 0);
+  CHECK(run.warnings()[0].find("struck points ring at up to 400 Hz, which steps of 1 ms do not follow") == 0);
+  run.summary.dt = 1e-4;
+  CHECK(run.warnings().empty());
+}
+
+TEST_CASE("steps of alpha-OS that stiffening made implicit are told") {
+  Run run;
+  run.summary.steps = 100;
+  run.summary.stiffened_steps = 24;
+  REQUIRE(run.warnings().size() == 1);
+  CHECK(run.warnings()[0].find("members stiffened beyond their stiffness at rest: alpha-OS would be unstable, and 24 of 100 steps") == 0);
 }
 
 TEST_CASE("force-based members whose sections softened are told") {

@@ -1,0 +1,76 @@
+// How the scheme `event-split` moves over a whole step without contact: the time integration methods of its option `integrator`. A new
+// method is one file with a class derived from FlightMethod, one line in flight_methods.cpp and one test.
+#pragma once
+
+#include <optional>
+
+#include "integrators/algorithms.hpp"
+#include "integrators/iteration_matrix.hpp"
+#include "integrators/scheme.hpp"
+
+namespace nsframe {
+
+// Where the motion stands, in free DOFs.
+struct Motion {
+  VectorX q, v, P;  // displacement [m, rad], velocity, internal force [N, N m]
+  VectorX a;        // acceleration as the method carries it [m/s2, rad/s2]; empty where something else has moved since its last step
+  VectorX change;   // of q over the last step or part, without the rounding of q
+};
+
+// A whole step to be made: from `start` at `time` [s] over `length` [s]; histories of nonlinear elements from `committed` to `trial`.
+struct FlightStep {
+  double time, length;
+  const Motion& start;
+  const VectorX& committed;
+  VectorX& trial;
+};
+
+// An iteration matrix in use, and the stiffness that is in it.
+struct FactoredStiffness {
+  IterationMatrix matrix;
+  SparseMatrix stiffness;
+
+  void save(Snapshot& snapshot, const std::string& name) const { matrix.save(snapshot, name); }
+  void restore(System& system, const Snapshot& snapshot, const std::string& name);
+};
+
+class FlightMethod {
+ public:
+  virtual ~FlightMethod() = default;
+
+  // Throws ConvergenceError. `start` and `committed` stay as they are, so a step that is not wanted has nothing to undo.
+  virtual void step(System& system, const FlightStep& step, Motion& end, StepResult& result) = 0;
+  // Energy that such a step took from the motion beside physical damping [J]; empty: what the balance leaves.
+  virtual std::optional<double> dissipated(const System& system, const Motion& start, const Motion& end) const {
+    (void)system, (void)start, (void)end;
+    return std::nullopt;
+  }
+  // Of a free mode of circular frequency w [rad/s] and damping ratio xi at step h [s].
+  virtual Scheme::ModeResponse mode_response(double w, double xi, double h) const = 0;
+  // theta of the parts of a step (part_flow.hpp).
+  virtual double part_theta() const { return 0.5; }
+  virtual long factorizations() const = 0;
+  virtual std::string describe() const = 0;
+  virtual void save(Snapshot& snapshot) const = 0;
+  virtual void restore(System& system, const Snapshot& snapshot) = 0;
+};
+
+// That of options.integrator. Throws InputError for an unknown name, or parameters out of its range.
+std::unique_ptr<FlightMethod> make_flight_method(const AnalysisOptions& options, const System& system);
+std::vector<std::string> flight_method_names();
+inline constexpr double least_rho_of_alpha_os = 0.5;  // of Hilber, Hughes and Taylor's method
+
+std::unique_ptr<FlightMethod> make_theta_method(const AnalysisOptions& options, const System& system);
+std::unique_ptr<FlightMethod> make_generalized_alpha(const AnalysisOptions& options, const System& system);
+std::unique_ptr<FlightMethod> make_alpha_os(const AnalysisOptions& options, const System& system);
+
+// DOFs without mass: they have no velocity of their own, and get the mean one of the step.
+std::vector<Eigen::Index> massless_dofs(const System& system);
+
+// What residuals are measured by at least: accelerations below this count as zero [m/s2].
+inline constexpr double negligible_acceleration = 1e-3;
+// By the solution algorithms; throws ConvergenceError when none converges. Counts iterations.
+void solve_flight(Ladder& ladder, NonlinearStep& problem, const AnalysisOptions& options, const System& system, double time,
+                  StepResult& result);
+
+}  // namespace nsframe
