@@ -9,7 +9,7 @@ namespace nsframe {
 
 namespace {
 
-constexpr double beyond = 0.02;  // of the distance of two ticks, that a value may lie outside the range: less than a pixel
+constexpr double tick_slack = 0.02;  // of the distance of two ticks, that a value may lie outside the range: less than a pixel
 
 }  // namespace
 
@@ -25,8 +25,8 @@ Axis::Axis(bool logarithmic, bool tight, double least, double most) : log_(logar
     step_ = factor * power;
     if (span / step_ <= 6) break;
   }
-  first_ = step_ * std::floor(least / step_ + beyond);
-  last_ = step_ * std::ceil(most / step_ - beyond);
+  first_ = step_ * std::floor(least / step_ + tick_slack);
+  last_ = step_ * std::ceil(most / step_ - tick_slack);
   if (!(last_ > first_)) last_ = first_ + step_;
   tick_ = first_;
   if (tight && most > least) {
