@@ -80,7 +80,8 @@ TEST_CASE("a long curve keeps its spike, and one that returns keeps all its poin
   Chart circle = line_chart(loop_x, loop_y);
   circle.equal = true;
   double low = 1e9, high = -1e9, left = 1e9, right = -1e9;
-  for (const auto& [px, py] : polylines(chart_svg({circle})).at(0)) {
+  const auto loop = polylines(chart_svg({circle}));
+  for (const auto& [px, py] : loop.at(0)) {
     low = std::min(low, py), high = std::max(high, py), left = std::min(left, px), right = std::max(right, px);
   }
   CHECK(high - low == doctest::Approx(right - left).epsilon(2e-3));

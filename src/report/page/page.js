@@ -47,7 +47,9 @@ function head() {
     element("div", {class: "card"}, line("value", value), line("label", label), more ? line("label", more) : ""));
   if (summary.pairs.length) {
     const strongest = run.poundings.reduce((best, p) => !best || p.impulse > best.impulse ? p : best, null);
-    card("poundings", String(summary.poundings_total), summary.impacts_total + " impacts");
+    const counted = (count, word) => count === 1 ? word : word + "s";
+    card(counted(summary.poundings_total, "pounding"), String(summary.poundings_total),
+      summary.impacts_total + " " + counted(summary.impacts_total, "impact"));
     if (strongest) card("largest impulse of a pounding", figure(strongest.impulse) + " N s", "at " + figure(strongest.t, 4) + " s");
   }
   const peak = run.peaks.displacement, drift = run.peaks.drift;
