@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <stdexcept>
 
+#include "base/errors.hpp"
 #include "scene/describe.hpp"
 #include "scene/scene_keys.hpp"
 
@@ -140,6 +142,27 @@ void check_targets(const Scene& scene, Diagnostics& diagnostics) {
   }
 }
 
+// The rules across keys that hold when a scene is read, for changed numbers.
+void require_possible(const SceneTables& tables) {
+  for (const MaterialTable& material : tables.materials) {
+    try {
+      check_parameters(material.law);
+    } catch (const std::invalid_argument& fault) {
+      throw InputError(fmt::format("error: material '{}' with fitted values: {}", material.name, fault.what()));
+    }
+  }
+  for (const SectionTable& section : tables.sections) {
+    const SectionFaults found = std::visit([](const auto& kind) { return faults(kind); }, section.kind);
+    if (!found.empty()) throw InputError(fmt::format("error: section '{}' with fitted values: {}", section.name, found.front().message));
+  }
+  for (const StructureTable& structure : tables.structures) {
+    const auto* frame = std::get_if<StoryFrameTable>(&structure);
+    if (!frame) continue;
+    const std::vector<std::string> found = faults(frame->frame);
+    if (!found.empty()) throw InputError(fmt::format("error: structure '{}' with fitted values: {}", frame->frame.name, found.front()));
+  }
+}
+
 }  // namespace
 
 std::vector<SceneParameter> calibration_parameters(const Scene& scene, Diagnostics& diagnostics) {
@@ -175,6 +198,7 @@ ParametricModel::ParametricModel(const Scene& scene, std::vector<SceneParameter>
 ModelDescription ParametricModel::operator()(const VectorX& values) const {
   Scene scene = scene_;
   set_parameters(parameters_, values, scene.tables);
+  require_possible(scene.tables);
   Diagnostics diagnostics;
   describe_model(scene, diagnostics);
   diagnostics.throw_if_any();

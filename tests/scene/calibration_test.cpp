@@ -1,6 +1,7 @@
 // Numbers of a scene by their keys, and what [calibration] accepts.
 #include <doctest/doctest.h>
 
+#include "base/errors.hpp"
 #include "scene/calibration.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/tables.hpp"
@@ -139,6 +140,16 @@ base = { sets = "structure.left.base.stiffness", bounds = ["1e6 N m/rad", 1e9] }
   CHECK(value("section.\"my beam\".Iz") == 1e-4);
   const ModelDescription model = ParametricModel(s, parameters)(Vector3(3e-4, 1.1, 2e7));
   CHECK(model.structures.size() == 2);
+}
+
+TEST_CASE("values that no section can have are an error of the model, not a model") {
+  const std::string tube = "[section.tube]\ntube = [0.1, 0.1, 0.005]\nmaterial = \"S235\"\n";
+  const Scene s = scene(with_calibration("parameters = [[\"wall\", \"section.tube.tube.thickness\", 0.001, 0.08]]\n" + tube));
+  Diagnostics diagnostics;
+  const ParametricModel model(s, calibration_parameters(s, diagnostics));
+  REQUIRE(diagnostics.empty());
+  CHECK(model(VectorX::Constant(1, 0.01)).structures.size() == 2);
+  CHECK_THROWS_AS(model(VectorX::Constant(1, 0.07)), InputError);
 }
 
 TEST_CASE("a calibration is written with the scene and reads back") {
