@@ -48,7 +48,8 @@ std::filesystem::path folder_of(const SceneArguments& arguments) {
 int calibrate(const SceneArguments& arguments) {
   const LoadedScene loaded = load(arguments);
   if (!loaded.scene.tables.calibration)
-    throw InputError(fmt::format("{}: error: the scene has no [calibration]: parameters and measured frequencies", arguments.scene.string()));
+    throw InputError(
+        fmt::format("{}: error: the scene has no [calibration]: parameters and measured frequencies", arguments.scene.string()));
   Diagnostics diagnostics;
   const std::vector<SceneParameter> parameters = calibration_parameters(loaded.scene, diagnostics);
   diagnostics.throw_if_any();
@@ -61,8 +62,8 @@ int calibrate(const SceneArguments& arguments) {
   write_text_file(folder / "calibration.json", calibration_json(result));
   write_text_file(folder / "scene.toml", write_scene(fitted, folder));
   if (!arguments.quiet) {
-    fmt::print("{}\n{}\ncalibration.json and the scene with the fitted values, scene.toml, are in {}\n", loaded.scene.title, calibration_text(result),
-               folder.string());
+    fmt::print("{}\n{}\ncalibration.json and the scene with the fitted values, scene.toml, are in {}\n", loaded.scene.title,
+               calibration_text(result), folder.string());
   }
   if (result.converged) return done;
   fmt::print(stderr, "error: the calibration did not converge: {}\n", result.reason);

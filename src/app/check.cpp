@@ -111,6 +111,10 @@ int check(const SceneArguments& arguments) {
                motion.acceleration.size(), motion.dt, motion.duration(), peak, motion.direction.x(), motion.direction.y(),
                motion.direction.z());
   }
+  if (const auto& calibration = loaded.scene.tables.calibration) {
+    fmt::print("calibration: {}, {} measured (nsframe calibrate)\n", counted(calibration->parameters.size(), "parameter"),
+               calibration->targets.size() == 1 ? "1 frequency" : fmt::format("{} frequencies", calibration->targets.size()));
+  }
   print_solution(loaded, simulation);
   return done;
 }

@@ -96,7 +96,8 @@ VectorX residuals(const CalibrationProblem& problem, const Identification& modes
   VectorX out = VectorX::Zero(static_cast<Eigen::Index>(problem.targets.size()));
   for (std::size_t i = 0; i < problem.targets.size(); ++i) {
     const double f = frequency_of(modes, i);
-    if (modes.targets[i].mode >= 0) out[static_cast<Eigen::Index>(i)] = std::sqrt(problem.targets[i].weight) * std::log(f / problem.targets[i].frequency);
+    if (modes.targets[i].mode >= 0)
+      out[static_cast<Eigen::Index>(i)] = std::sqrt(problem.targets[i].weight) * std::log(f / problem.targets[i].frequency);
   }
   return out;
 }
@@ -109,7 +110,8 @@ bool all_move(const CalibrationProblem& problem, const Identification& modes) {
 
 // Rows of d ln f / d ln p times the square root of their weights.
 MatrixX weighted(const CalibrationProblem& problem, MatrixX sensitivity) {
-  for (std::size_t i = 0; i < problem.targets.size(); ++i) sensitivity.row(static_cast<Eigen::Index>(i)) *= std::sqrt(problem.targets[i].weight);
+  for (std::size_t i = 0; i < problem.targets.size(); ++i)
+    sensitivity.row(static_cast<Eigen::Index>(i)) *= std::sqrt(problem.targets[i].weight);
   return sensitivity;
 }
 
@@ -185,7 +187,7 @@ std::string reason_of(const CalibrationProblem& problem, const LeastSquaresResul
       missing.push_back(fmt::format("{:.4g} Hz of '{}'", target.frequency, target.structure));
   }
   if (!missing.empty()) return fmt::format("no mode has a shape like the measured one of {}", fmt::join(missing, ", "));
-  if (!result.converged) return fmt::format("no least squares after {} iterations", result.iterations);
+  if (!result.converged) return fmt::format("no least squares after {} iteration{}", result.iterations, result.iterations == 1 ? "" : "s");
   std::vector<std::string> names;
   for (const std::size_t i : renamed) names.push_back(problem.targets[i].structure + "." + problem.targets[i].mode);
   return renamed.empty() ? "" : fmt::format("the modes {} change places again and again as the fit goes on", fmt::join(names, ", "));
@@ -248,7 +250,11 @@ Calibration calibrate(const CalibrationProblem& problem) {
     const auto at = static_cast<Eigen::Index>(j);
     const CalibrationParameter& p = problem.parameters[j];
     const Bound bound = result.x[at] <= std::log(p.lower) ? Bound::lower : result.x[at] >= std::log(p.upper) ? Bound::upper : Bound::none;
-    out.parameters.push_back({p, bound == Bound::lower ? p.lower : bound == Bound::upper ? p.upper : values[at], bound, out.identifiability.error[at]});
+    out.parameters.push_back({p,
+                              bound == Bound::lower   ? p.lower
+                              : bound == Bound::upper ? p.upper
+                                                      : values[at],
+                              bound, out.identifiability.error[at]});
   }
   for (std::size_t i = 0; i < problem.targets.size(); ++i) {
     const CalibrationTarget& target = problem.targets[i];
@@ -269,7 +275,8 @@ Calibration calibrate(const CalibrationProblem& problem) {
     f.name = with_names.names[now.structure][static_cast<std::size_t>(now.mode)];
     const VectorX shape = modes.modes[now.structure].shape.col(now.mode);
     if (before.mode >= 0)
-      f.likeness_to_start = modal_assurance(named_at_start.modes[now.structure].shape.col(before.mode), shape, follower->resting().structures[now.structure].mass);
+      f.likeness_to_start = modal_assurance(named_at_start.modes[now.structure].shape.col(before.mode), shape,
+                                            follower->resting().structures[now.structure].mass);
     if (!target.shape.empty()) f.likeness = likeness_to_measured(follower->resting(), now.structure, target, shape);
   }
   add_unmeasured(problem, follower->resting(), with_names, out);

@@ -31,7 +31,8 @@ double largest_cosine(const Residuals& r, const VectorX& gradient, const std::ve
 }
 
 // (J'J + mu D^2) step = -g in the free components.
-VectorX damped_step(const Residuals& r, const VectorX& gradient, const VectorX& scale, double damping, const std::vector<Eigen::Index>& free) {
+VectorX damped_step(const Residuals& r, const VectorX& gradient, const VectorX& scale, double damping,
+                    const std::vector<Eigen::Index>& free) {
   const MatrixX J = r.jacobian(Eigen::all, free);
   const VectorX weight = scale(free);
   MatrixX A = J.transpose() * J;

@@ -60,7 +60,8 @@ VectorX at_sensors(const Model& model, std::size_t structure, const CalibrationT
   VectorX out(static_cast<Eigen::Index>(target.shape.size()));
   for (std::size_t i = 0; i < target.shape.size(); ++i) {
     const auto node = std::find(model.nodes.id.begin(), model.nodes.id.end(), target.structure + "." + target.shape[i].node);
-    if (node == model.nodes.id.end()) throw InputError(fmt::format("error: there is no node '{}.{}'", target.structure, target.shape[i].node));
+    if (node == model.nodes.id.end())
+      throw InputError(fmt::format("error: there is no node '{}.{}'", target.structure, target.shape[i].node));
     out[static_cast<Eigen::Index>(i)] = full[6 * (node - model.nodes.id.begin()) + target.shape[i].dof];
   }
   return out;

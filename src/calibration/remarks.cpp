@@ -26,15 +26,17 @@ void add_bounds(const Calibration& c, std::vector<std::string>& out) {
   for (const FittedParameter& p : c.parameters) {
     if (p.bound == Bound::none) continue;
     const bool low = p.bound == Bound::lower;
-    out.push_back(fmt::format("{} stopped at its {} bound, {:g}{}: the frequencies ask for {}", quoted(p), low ? "lower" : "upper", p.fitted,
-                              p.parameter.unit.empty() ? "" : " " + p.parameter.unit, low ? "less" : "more"));
+    out.push_back(fmt::format("{} stopped at its {} bound, {:g}{}: the frequencies ask for {}", quoted(p), low ? "lower" : "upper",
+                              p.fitted, p.parameter.unit.empty() ? "" : " " + p.parameter.unit, low ? "less" : "more"));
   }
 }
 
 void add_unseen(const Calibration& c, std::vector<std::string>& out) {
-  const std::size_t measured = static_cast<std::size_t>(std::count_if(c.frequencies.begin(), c.frequencies.end(), [](const auto& f) { return f.matched; }));
+  const std::size_t measured =
+      static_cast<std::size_t>(std::count_if(c.frequencies.begin(), c.frequencies.end(), [](const auto& f) { return f.matched; }));
   if (measured < c.parameters.size())
-    out.push_back(fmt::format("{} parameters cannot all follow from {} measured frequenc{}", c.parameters.size(), measured, measured == 1 ? "y" : "ies"));
+    out.push_back(fmt::format("{} parameters cannot all follow from {} measured frequenc{}", c.parameters.size(), measured,
+                              measured == 1 ? "y" : "ies"));
   for (VectorX direction : c.identifiability.unseen) {
     Eigen::Index largest = 0;
     direction.cwiseAbs().maxCoeff(&largest);
@@ -46,9 +48,12 @@ void add_unseen(const Calibration& c, std::vector<std::string>& out) {
     direction *= 10 / direction[largest];
     std::vector<std::string> parts;
     for (Eigen::Index j = 0; j < direction.size(); ++j)
-      if (std::abs(direction[j]) >= 0.5) parts.push_back(fmt::format("{} {:+.1f} %", quoted(c.parameters[static_cast<std::size_t>(j)]), direction[j]));
-    out.push_back(fmt::format("cannot be identified one by one: to first order {} together change no measured frequency; other values may fit as "
-                              "well", fmt::join(parts, ", ")));
+      if (std::abs(direction[j]) >= 0.5)
+        parts.push_back(fmt::format("{} {:+.1f} %", quoted(c.parameters[static_cast<std::size_t>(j)]), direction[j]));
+    out.push_back(
+        fmt::format("cannot be identified one by one: to first order {} together change no measured frequency; other values may fit as "
+                    "well",
+                    fmt::join(parts, ", ")));
   }
 }
 
@@ -72,22 +77,28 @@ void add_frequencies(const Calibration& c, std::vector<std::string>& out) {
   for (const FittedFrequency& f : c.frequencies) {
     const std::string name = fmt::format("{} of '{}'", f.mode, f.structure);
     if (!f.matched) {
-      out.push_back(fmt::format("unmatched: no mode of '{}' has a shape like the one measured at {:g} Hz; {}", f.structure, f.measured,
-                                f.name.empty() ? "none is free" : fmt::format("the nearest is {} with a MAC of {:.2f}", f.name, f.likeness.value_or(0))));
+      out.push_back(fmt::format(
+          "unmatched: no mode of '{}' has a shape like the one measured at {:g} Hz; {}", f.structure, f.measured,
+          f.name.empty() ? "none is free" : fmt::format("the nearest is {} with a MAC of {:.2f}", f.name, f.likeness.value_or(0))));
       continue;
     }
     if (std::abs(std::log(f.fitted / f.measured)) * std::sqrt(f.weight) > c.accuracy)
-      out.push_back(fmt::format("{} stays {:+.2f} % off, more than its accuracy of {:.3g} %: these parameters cannot reach all frequencies at once, "
-                                "or another start finds a better fit", name, 100 * f.difference(), 100 * c.accuracy / std::sqrt(f.weight)));
+      out.push_back(
+          fmt::format("{} stays {:+.2f} % off, more than its accuracy of {:.3g} %: these parameters cannot reach all frequencies at once, "
+                      "or another start finds a better fit",
+                      name, 100 * f.difference(), 100 * c.accuracy / std::sqrt(f.weight)));
     if (f.name != f.mode) out.push_back(fmt::format("the mode followed as {} is called {} at the fit", name, f.name));
     if (f.likeness_to_start < changed)
       out.push_back(fmt::format("the shape of {} changed on the way: its MAC with that at the start is {:.2f}", name, f.likeness_to_start));
-    if (f.likeness && *f.likeness < changed) out.push_back(fmt::format("the shape of {} has a MAC of {:.2f} with the measured one", name, *f.likeness));
+    if (f.likeness && *f.likeness < changed)
+      out.push_back(fmt::format("the shape of {} has a MAC of {:.2f} with the measured one", name, *f.likeness));
   }
   std::map<std::string, std::vector<std::string>> unmeasured;
-  for (const UnmeasuredMode& mode : c.unmeasured) unmeasured[mode.structure].push_back(fmt::format("{} ({:.4g} Hz)", mode.mode, mode.frequency));
+  for (const UnmeasuredMode& mode : c.unmeasured)
+    unmeasured[mode.structure].push_back(fmt::format("{} ({:.4g} Hz)", mode.mode, mode.frequency));
   for (const auto& [structure, modes] : unmeasured)
-    out.push_back(fmt::format("'{}' has modes below its highest measured one without a measurement: {}", structure, fmt::join(modes, ", ")));
+    out.push_back(
+        fmt::format("'{}' has modes below its highest measured one without a measurement: {}", structure, fmt::join(modes, ", ")));
 }
 
 }  // namespace

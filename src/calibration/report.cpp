@@ -26,13 +26,13 @@ double root_mean_square(const Calibration& c, double FittedFrequency::*value) {
 }
 
 std::string frequency_table(const Calibration& c) {
-  std::string text = fmt::format("{:<12} {:<5} {:>12} {:>10} {:>10} {:>12} {:>8} {:>10}\n", "structure", "mode", "measured Hz", "start", "fitted",
-                                 "difference %", "weight", "MAC");
+  std::string text = fmt::format("{:<12} {:<5} {:>12} {:>10} {:>10} {:>12} {:>8} {:>10}\n", "structure", "mode", "measured Hz", "start",
+                                 "fitted", "difference %", "weight", "MAC");
   const FittedFrequency* worst = nullptr;
   for (const FittedFrequency& f : c.frequencies) {
     if (!f.matched) {
-      text += fmt::format("{:<12} {:<5} {:>12.4f} {:>10} {:>10} {:>12} {:>8.3g} {:>10}\n", f.structure, f.mode.empty() ? "-" : f.mode, f.measured, "-", "-",
-                          "unmatched", f.weight, "-");
+      text += fmt::format("{:<12} {:<5} {:>12.4f} {:>10} {:>10} {:>12} {:>8.3g} {:>10}\n", f.structure, f.mode.empty() ? "-" : f.mode,
+                          f.measured, "-", "-", "unmatched", f.weight, "-");
       continue;
     }
     if (!worst || std::abs(f.difference()) > std::abs(worst->difference())) worst = &f;
@@ -42,8 +42,9 @@ std::string frequency_table(const Calibration& c) {
   }
   text += "MAC: with the measured shape; where none is given, with the mode's shape at the start\n";
   if (worst) {
-    text += fmt::format("largest difference {:.3f} % ({} of '{}'), root mean square {:.3f} % (at the start {:.3f} %)\n", 100 * std::abs(worst->difference()),
-                        worst->mode, worst->structure, 100 * root_mean_square(c, &FittedFrequency::fitted), 100 * root_mean_square(c, &FittedFrequency::start));
+    text += fmt::format("largest difference {:.3f} % ({} of '{}'), root mean square {:.3f} % (at the start {:.3f} %)\n",
+                        100 * std::abs(worst->difference()), worst->mode, worst->structure,
+                        100 * root_mean_square(c, &FittedFrequency::fitted), 100 * root_mean_square(c, &FittedFrequency::start));
   }
   return text;
 }
@@ -51,13 +52,14 @@ std::string frequency_table(const Calibration& c) {
 std::string parameter_table(const Calibration& c) {
   std::size_t width = 9;
   for (const FittedParameter& p : c.parameters) width = std::max(width, p.parameter.name.size());
-  std::string text = fmt::format("{:<{}} {:>12} {:>12} {:<9} {:>7} {:>11} {:>11}  {}\n", "parameter", width, "start", "fitted", "unit", "error",
-                                 "lower", "upper", "");
+  std::string text = fmt::format("{:<{}} {:>12} {:>12} {:<9} {:>7} {:>11} {:>11}  {}\n", "parameter", width, "start", "fitted", "unit",
+                                 "error", "lower", "upper", "");
   for (const FittedParameter& p : c.parameters) {
     const std::string error = !std::isfinite(p.error) ? "-" : p.error < 1 ? fmt::format("{:.1f} %", 100 * p.error) : "> 100 %";
-    text += fmt::format("{:<{}} {:>12.6g} {:>12.6g} {:<9} {:>7} {:>11.4g} {:>11.4g}  {}\n", p.parameter.name, width, p.parameter.start, p.fitted,
-                        p.parameter.unit, error, p.parameter.lower, p.parameter.upper,
-                        p.bound == Bound::none ? p.parameter.meaning : fmt::format("{} (at its {} bound)", p.parameter.meaning, name_of(p.bound)));
+    text += fmt::format(
+        "{:<{}} {:>12.6g} {:>12.6g} {:<9} {:>7} {:>11.4g} {:>11.4g}  {}\n", p.parameter.name, width, p.parameter.start, p.fitted,
+        p.parameter.unit, error, p.parameter.lower, p.parameter.upper,
+        p.bound == Bound::none ? p.parameter.meaning : fmt::format("{} (at its {} bound)", p.parameter.meaning, name_of(p.bound)));
   }
   return text + fmt::format("error: what standard errors of {:g} % of the frequencies mean; -: nothing can be said\n", 100 * c.accuracy);
 }
@@ -73,11 +75,13 @@ std::string sensitivity_table(const Calibration& c) {
     for (std::size_t j = 0; j < c.parameters.size(); ++j) {
       double largest = 0;
       for (std::size_t i = 0; i < c.frequencies.size(); ++i)
-        if (c.frequencies[i].structure == structure) largest = std::max(largest, std::abs(c.sensitivity(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
+        if (c.frequencies[i].structure == structure)
+          largest = std::max(largest, std::abs(c.sensitivity(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j))));
       if (largest > 1e-9) columns.push_back(j);
     }
     text += fmt::format("{:<12} {:<5}", structure, "mode");
-    for (const std::size_t j : columns) text += fmt::format(" {:>{}}", c.parameters[j].parameter.name, std::max<std::size_t>(7, c.parameters[j].parameter.name.size()));
+    for (const std::size_t j : columns)
+      text += fmt::format(" {:>{}}", c.parameters[j].parameter.name, std::max<std::size_t>(7, c.parameters[j].parameter.name.size()));
     text += "\n";
     for (std::size_t i = 0; i < c.frequencies.size(); ++i) {
       if (c.frequencies[i].structure != structure || !c.frequencies[i].matched) continue;
@@ -94,7 +98,8 @@ std::string sensitivity_table(const Calibration& c) {
 }
 
 std::string verdict(const Calibration& c) {
-  const std::string effort = fmt::format("{} iteration{}, {} step{} shortened", c.iterations, c.iterations == 1 ? "" : "s", c.rejected, c.rejected == 1 ? "" : "s");
+  const std::string effort = fmt::format("{} iteration{}, {} step{} shortened", c.iterations, c.iterations == 1 ? "" : "s", c.rejected,
+                                         c.rejected == 1 ? "" : "s");
   return c.converged ? fmt::format("converged: {}\n", effort) : fmt::format("not converged: {} ({})\n", c.reason, effort);
 }
 
@@ -128,7 +133,8 @@ std::string calibration_json(const Calibration& c) {
   json["frequencies"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < c.frequencies.size(); ++i) {
     const FittedFrequency& f = c.frequencies[i];
-    nlohmann::ordered_json one{{"structure", f.structure}, {"mode", f.mode}, {"measured", f.measured}, {"weight", f.weight}, {"matched", f.matched}};
+    nlohmann::ordered_json one{
+        {"structure", f.structure}, {"mode", f.mode}, {"measured", f.measured}, {"weight", f.weight}, {"matched", f.matched}};
     if (f.matched) {
       one["start"] = f.start;
       one["fitted"] = f.fitted;
@@ -144,8 +150,13 @@ std::string calibration_json(const Calibration& c) {
   }
   json["parameters"] = nlohmann::ordered_json::array();
   for (const FittedParameter& p : c.parameters) {
-    json["parameters"].push_back({{"name", p.parameter.name}, {"meaning", p.parameter.meaning}, {"unit", p.parameter.unit}, {"start", p.parameter.start},
-                                  {"fitted", p.fitted}, {"lower", p.parameter.lower}, {"upper", p.parameter.upper},
+    json["parameters"].push_back({{"name", p.parameter.name},
+                                  {"meaning", p.parameter.meaning},
+                                  {"unit", p.parameter.unit},
+                                  {"start", p.parameter.start},
+                                  {"fitted", p.fitted},
+                                  {"lower", p.parameter.lower},
+                                  {"upper", p.parameter.upper},
                                   {"at_bound", p.bound == Bound::none ? nlohmann::json(nullptr) : nlohmann::json(name_of(p.bound))},
                                   {"relative_error", number(p.error)}});
   }

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <stdexcept>
 
+#include "base/errors.hpp"
 #include "scene/describe.hpp"
 #include "scene/scene_keys.hpp"
 
@@ -69,7 +71,8 @@ class ParameterReader {
           rule.values.push_back(*number);
           if (const auto [other, is_new] = owner_.try_emplace(number, out.name); !is_new)
             diagnostics_.error(key.at, fmt::format("'{}' is set by parameter '{}' already", key.name, other->second));
-          if (out.scales && *number == 0) diagnostics_.error(key.at, fmt::format("'{}' is 0 in the scene: a factor does nothing", key.name));
+          if (out.scales && *number == 0)
+            diagnostics_.error(key.at, fmt::format("'{}' is 0 in the scene: a factor does nothing", key.name));
         }
         out.keys.push_back(key.name);
       } catch (const SceneKeyError& fault) {
@@ -91,7 +94,8 @@ class ParameterReader {
 
   void check_interval(const CalibrationParameterTable& table, const KeyRule& rule, const SceneParameter& p) {
     if (!(p.lower > 0 && p.lower < p.upper)) {
-      diagnostics_.error(table.bounds[0].at, fmt::format("bounds of '{}' are [{:g}, {:g}], must be positive and rise", p.name, p.lower, p.upper));
+      diagnostics_.error(table.bounds[0].at,
+                         fmt::format("bounds of '{}' are [{:g}, {:g}], must be positive and rise", p.name, p.lower, p.upper));
       return;
     }
     for (std::size_t i = 0; i < rule.ranges.size(); ++i) {
@@ -99,13 +103,14 @@ class ParameterReader {
       for (const KeyQuantity* bound : {&table.bounds[0], &table.bounds[1]}) {
         const double reached = factor * (bound == &table.bounds[0] ? p.lower : p.upper);
         if (!rule.ranges[i].contains(reached))
-          diagnostics_.error(bound->at, fmt::format("at this bound of '{}' {} = {:g}, {}", p.name, p.keys.front(), reached, rule.ranges[i].rule()));
+          diagnostics_.error(bound->at,
+                             fmt::format("at this bound of '{}' {} = {:g}, {}", p.name, p.keys.front(), reached, rule.ranges[i].rule()));
       }
     }
     if (p.start < p.lower || p.start > p.upper)
       diagnostics_.error(table.start ? table.start->at : table.bounds[0].at,
-                         fmt::format("'{}' starts at {:g}{}, outside its bounds [{:g}, {:g}]", p.name, p.start, table.start ? "" : ", the scene's value",
-                                     p.lower, p.upper));
+                         fmt::format("'{}' starts at {:g}{}, outside its bounds [{:g}, {:g}]", p.name, p.start,
+                                     table.start ? "" : ", the scene's value", p.lower, p.upper));
   }
 
   SceneTables tables_;  // a copy: keys point into it
@@ -121,17 +126,40 @@ void check_targets(const Scene& scene, Diagnostics& diagnostics) {
     for (const StructureDescription& structure : scene.model.structures) names.push_back(structure.name);
     const auto found = std::find(names.begin(), names.end(), target.structure.name);
     if (found == names.end()) {
-      diagnostics.error(target.structure.at, fmt::format("there is no structure '{}'{}", target.structure.name, did_you_mean(target.structure.name, names)));
+      diagnostics.error(target.structure.at,
+                        fmt::format("there is no structure '{}'{}", target.structure.name, did_you_mean(target.structure.name, names)));
       continue;
     }
     if (target.mode && !seen.try_emplace({target.structure.name, target.mode->name}, true).second)
       diagnostics.error(target.mode->at, fmt::format("mode {} of '{}' is measured twice", target.mode->name, target.structure.name));
     std::vector<std::string> nodes;
-    for (const NodeDescription& node : scene.model.structures[static_cast<std::size_t>(found - names.begin())].nodes) nodes.push_back(node.id);
+    for (const NodeDescription& node : scene.model.structures[static_cast<std::size_t>(found - names.begin())].nodes)
+      nodes.push_back(node.id);
     for (const CalibrationShapeTable& ordinate : target.shape)
       if (std::find(nodes.begin(), nodes.end(), ordinate.node.name) == nodes.end())
         diagnostics.error(ordinate.node.at, fmt::format("structure '{}' has no node '{}'{}", target.structure.name, ordinate.node.name,
                                                         did_you_mean(ordinate.node.name, nodes)));
+  }
+}
+
+// The rules across keys that hold when a scene is read, for changed numbers.
+void require_possible(const SceneTables& tables) {
+  for (const MaterialTable& material : tables.materials) {
+    try {
+      check_parameters(material.law);
+    } catch (const std::invalid_argument& fault) {
+      throw InputError(fmt::format("error: material '{}' with fitted values: {}", material.name, fault.what()));
+    }
+  }
+  for (const SectionTable& section : tables.sections) {
+    const SectionFaults found = std::visit([](const auto& kind) { return faults(kind); }, section.kind);
+    if (!found.empty()) throw InputError(fmt::format("error: section '{}' with fitted values: {}", section.name, found.front().message));
+  }
+  for (const StructureTable& structure : tables.structures) {
+    const auto* frame = std::get_if<StoryFrameTable>(&structure);
+    if (!frame) continue;
+    const std::vector<std::string> found = faults(frame->frame);
+    if (!found.empty()) throw InputError(fmt::format("error: structure '{}' with fitted values: {}", frame->frame.name, found.front()));
   }
 }
 
@@ -170,6 +198,7 @@ ParametricModel::ParametricModel(const Scene& scene, std::vector<SceneParameter>
 ModelDescription ParametricModel::operator()(const VectorX& values) const {
   Scene scene = scene_;
   set_parameters(parameters_, values, scene.tables);
+  require_possible(scene.tables);
   Diagnostics diagnostics;
   describe_model(scene, diagnostics);
   diagnostics.throw_if_any();

@@ -173,7 +173,8 @@ class NumberFinder {
     std::vector<Eigen::Index> out;
     if (depth < positions.size()) {
       if (positions[depth] > size)
-        throw SceneKeyError(fmt::format("'{}' has {} value{}, there is no [{}]", parts_[at_].name, size, size == 1 ? "" : "s", positions[depth]));
+        throw SceneKeyError(
+            fmt::format("'{}' has {} value{}, there is no [{}]", parts_[at_].name, size, size == 1 ? "" : "s", positions[depth]));
       return {static_cast<Eigen::Index>(positions[depth]) - 1};
     }
     for (std::size_t i = 0; i < size; ++i) out.push_back(static_cast<Eigen::Index>(i));

@@ -382,6 +382,7 @@ class Commands(unittest.TestCase):
         self.assertTrue((self.folder / "shapes/frames.pvd").exists())
 
     def test_calibrate_writes_a_scene_that_runs_and_has_the_fitted_frequencies(self):
+        self.assertIn("calibration: 13 parameters, 12 frequencies measured", self.nsframe("check", CALIBRATION).stdout)
         text = self.nsframe("calibrate", CALIBRATION, "-o", "out").stdout
         for words in ("converged: ", "structure    mode   measured Hz", "sensitivities d ln f / d ln p", "singular values", "scene.toml, are in out"):
             self.assertIn(words, text)

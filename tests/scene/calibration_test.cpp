@@ -1,6 +1,7 @@
 // Numbers of a scene by their keys, and what [calibration] accepts.
 #include <doctest/doctest.h>
 
+#include "base/errors.hpp"
 #include "scene/calibration.hpp"
 #include "scene/scene_keys.hpp"
 #include "scene/tables.hpp"
@@ -70,7 +71,9 @@ std::vector<double> numbers(const std::string& key) {
   return out;
 }
 
-std::string with_calibration(const std::string& lines) { return keyed_text("[calibration]\ntargets = [[\"left\", \"L1\", 2.1]]\n" + lines); }
+std::string with_calibration(const std::string& lines) {
+  return keyed_text("[calibration]\ntargets = [[\"left\", \"L1\", 2.1]]\n" + lines);
+}
 
 }  // namespace
 
@@ -139,6 +142,16 @@ base = { sets = "structure.left.base.stiffness", bounds = ["1e6 N m/rad", 1e9] }
   CHECK(model.structures.size() == 2);
 }
 
+TEST_CASE("values that no section can have are an error of the model, not a model") {
+  const std::string tube = "[section.tube]\ntube = [0.1, 0.1, 0.005]\nmaterial = \"S235\"\n";
+  const Scene s = scene(with_calibration("parameters = [[\"wall\", \"section.tube.tube.thickness\", 0.001, 0.08]]\n" + tube));
+  Diagnostics diagnostics;
+  const ParametricModel model(s, calibration_parameters(s, diagnostics));
+  REQUIRE(diagnostics.empty());
+  CHECK(model(VectorX::Constant(1, 0.01)).structures.size() == 2);
+  CHECK_THROWS_AS(model(VectorX::Constant(1, 0.07)), InputError);
+}
+
 TEST_CASE("a calibration is written with the scene and reads back") {
   const Scene s = scene(with_calibration(R"(accuracy = "2 %"
 parameters = [["base", "structure.left.base.stiffness", "1e6 N m/rad", 1e9, 2e7]]
@@ -153,32 +166,36 @@ parameters = [["base", "structure.left.base.stiffness", "1e6 N m/rad", 1e9, 2e7]
 
 TEST_CASE("a faulty calibration is reported by every command at its place") {
   const auto parameter = [](const std::string& line) { return error(with_calibration("[calibration.parameters]\n" + line)); };
-  const std::string place = "s.toml:35:";
+  const std::string place = "s.toml:34:";
   CHECK(parameter("b = { sets = \"structure.left.base.stifness\", bounds = [1e6, 1e9] }") ==
         place + "14: error: structure.left.base.stifness: there is no key 'stifness'; did you mean 'stiffness'?");
   CHECK(parameter("b = { sets = \"structure.left.base.stiffness\", bounds = [\"1e6 N/m\", 1e9] }") ==
-        place + "58: error: bounds = \"1e6 N/m\" is a stiffness, must be a rotational stiffness (N m/rad)");
+        place + "57: error: bounds = \"1e6 N/m\" is a stiffness, must be a rotational stiffness (N m/rad)");
   CHECK(parameter("b = { sets = \"structure.left.base.stiffness\", bounds = [1e9, 1e6] }") ==
-        place + "58: error: bounds of 'b' are [1e+09, 1e+06], must be positive and rise");
+        place + "57: error: bounds of 'b' are [1e+09, 1e+06], must be positive and rise");
   CHECK(parameter("b = { sets = \"structure.left.base.stiffness\", bounds = [1e8, 1e9] }") ==
-        place + "58: error: 'b' starts at 1e+07, the scene's value, outside its bounds [1e+08, 1e+09]");
+        place + "57: error: 'b' starts at 1e+07, the scene's value, outside its bounds [1e+08, 1e+09]");
   CHECK(parameter("b = { sets = \"section.column.poisson\", bounds = [0.1, 0.6] }") ==
-        place + "56: error: at this bound of 'b' section.column.poisson = 0.6, must lie in (-1, 0.5)");
+        place + "55: error: at this bound of 'b' section.column.poisson = 0.6, must lie in (-1, 0.5]");
   CHECK(parameter("b = { sets = \"structure.left.braces.area\", bounds = [1e-5, 1e-3] }") ==
-        place + "5: error: the keys of 'b' have several values in the scene: give its start");
-  CHECK(parameter("b = { sets = \"structure.left.base.stiffness\", bounds = [1e6, 1e9] }\nc = { scales = \"structure.left.base.stiffness\", bounds = [0.5, 2] }") ==
-        "s.toml:36:16: error: 'structure.left.base.stiffness' is set by parameter 'b' already");
-  CHECK(parameter("b = { sets = [\"structure.left.base.stiffness\", \"material.S235.E\"], bounds = [1e6, 1e9] }").find("the parameter's other keys are a rotational stiffness") != std::string::npos);
+        place + "1: error: the keys of 'b' have several values in the scene: give its start");
+  CHECK(parameter("b = { sets = \"structure.left.base.stiffness\", bounds = [1e6, 1e9] }\nc = { scales = "
+                  "\"structure.left.base.stiffness\", bounds = [0.5, 2] }") ==
+        "s.toml:35:16: error: 'structure.left.base.stiffness' is set by parameter 'b' already");
+  CHECK(parameter("b = { sets = [\"structure.left.base.stiffness\", \"material.S235.E\"], bounds = [1e6, 1e9] }")
+            .find("the parameter's other keys are a rotational stiffness") != std::string::npos);
   CHECK(parameter("b = { bounds = [1e6, 1e9] }").find("a parameter has either sets or scales") != std::string::npos);
-  CHECK(parameter("b = { sets = \"structure.left.base.stiffness\", bound = [1e6, 1e9] }").find("unknown key 'bound'; did you mean 'bounds'?") != std::string::npos);
+  CHECK(parameter("b = { sets = \"structure.left.base.stiffness\", bound = [1e6, 1e9] }")
+            .find("unknown key 'bound'; did you mean 'bounds'?") != std::string::npos);
   const auto target = [](const std::string& row) {
     return error(keyed_text("[calibration]\nparameters = [[\"b\", \"structure.left.base.stiffness\", 1e6, 1e9]]\ntargets = [" + row + "]"));
   };
-  CHECK(target("[\"lefft\", \"L1\", 2]") == "s.toml:34:13: error: there is no structure 'lefft'; did you mean 'left'?");
-  CHECK(target("[\"left\", \"X1\", 2]") == "s.toml:34:21: error: 'X1' is not the name of a mode: L, T, R or V and its number");
-  CHECK(target("[\"left\", \"L1\", 0]") == "s.toml:34:27: error: frequency = 0, must be positive");
+  CHECK(target("[\"lefft\", \"L1\", 2]") == "s.toml:33:13: error: there is no structure 'lefft'; did you mean 'left'?");
+  CHECK(target("[\"left\", \"X1\", 2]") == "s.toml:33:21: error: 'X1' is not the name of a mode: L, T, R or V and its number");
+  CHECK(target("[\"left\", \"L1\", 0]") == "s.toml:33:27: error: frequency = 0, must be positive");
   CHECK(target("[\"left\", \"L1\", 2], [\"left\", \"L1\", 3]").find("mode L1 of 'left' is measured twice") != std::string::npos);
   CHECK(target("{ structure = \"left\", frequency = 2 }").find("a target needs a mode or a shape") != std::string::npos);
-  CHECK(target("{ structure = \"left\", frequency = 2, shape = [[\"99\", \"ux\", 1]] }").find("structure 'left' has no node '99'") != std::string::npos);
+  CHECK(target("{ structure = \"left\", frequency = 2, shape = [[\"99\", \"ux\", 1]] }").find("structure 'left' has no node '99'") !=
+        std::string::npos);
   CHECK(target("").find("a calibration needs targets") != std::string::npos);
 }
