@@ -50,6 +50,7 @@ void of_light_contact_nodes(const Model& model, const Summary& summary, Sentence
 }
 
 constexpr double restitution_tolerance = 0.05;
+constexpr double weak_pounding = 0.01;  // of the fastest approach: at slower ones ratios of velocities say nothing
 
 // Of pairs of rigid bodies, where Newton's e would be that of a single impact.
 void of_effective_restitution(const Model& model, const Summary& summary, Sentences& out) {
@@ -58,9 +59,11 @@ void of_effective_restitution(const Model& model, const Summary& summary, Senten
   const auto departure = [&](const Pounding& p) {
     return std::abs(p.effective_restitution - model.contacts.restitution[p.pair]);
   };
+  double fastest = 0;
+  for (const Pounding& pounding : summary.poundings) fastest = std::max(fastest, pounding.approach_velocity);
   for (const Pounding& pounding : summary.poundings) {
     const ContactPair& pair = model.contacts.pairs[static_cast<std::size_t>(pounding.pair)];
-    if (!pair.rigid_bodies || !(pounding.approach_velocity > 0)) continue;
+    if (!pair.rigid_bodies || !(pounding.approach_velocity > weak_pounding * fastest)) continue;
     ++seen;
     if (departure(pounding) <= restitution_tolerance) continue;
     ++different;
@@ -70,7 +73,8 @@ void of_effective_restitution(const Model& model, const Summary& summary, Senten
   out.push_back(fmt::format("{} of {} pounding{} did not part with the restitution of the scene: at t = {:.4g} s, {} parted with "
                             "{:.2f} in place of {:.2f}, over {} impact{}",
                             different, seen, seen == 1 ? "" : "s", worst->time,
-                            model.contacts.pairs[static_cast<std::size_t>(worst->pair)].name, worst->effective_restitution,
+                            model.contacts.pairs[static_cast<std::size_t>(worst->pair)].name,
+                            std::abs(worst->effective_restitution) < 0.005 ? 0.0 : worst->effective_restitution,  // not -0.00
                             model.contacts.restitution[worst->pair], worst->impacts, worst->impacts == 1 ? "" : "s"));
 }
 
