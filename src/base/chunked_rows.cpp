@@ -97,8 +97,9 @@ ChunkedFactor::ChunkedFactor(const Eigen::SimplicialLDLT<SparseMatrix>& factor) 
   const SparseRows by_rows = lower, transposed = lower.transpose();
   forward_ = triangular_chunks(by_rows, VectorX::Ones(n));
   backward_ = triangular_chunks(transposed, factor.vectorD().cwiseInverse());
+  const auto& permutation = factor.permutationP().indices();  // empty: none
   place_.resize(static_cast<std::size_t>(n));
-  for (Eigen::Index i = 0; i < n; ++i) place_[static_cast<std::size_t>(i)] = factor.permutationP().size() > 0 ? factor.permutationP().indices()[i] : static_cast<int>(i);
+  for (int i = 0; i < n; ++i) place_[static_cast<std::size_t>(i)] = permutation.size() > 0 ? permutation[i] : i;
   work_.assign(static_cast<std::size_t>(forward_.padded_rows()), 0.0);
 }
 
