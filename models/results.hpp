@@ -149,6 +149,7 @@ struct ModeNumerics {
   double damping_effective = 0;        // asked plus numerical [-]
   double frequency_effective = 0;      // [Hz]
   double participation = 0;            // effective mass over mass, the largest of x, y and z [-]
+  Vector3 shares = Vector3::Zero();    // the same along x, y and z
 };
 
 struct Peak {

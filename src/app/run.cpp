@@ -30,7 +30,9 @@ void add_participation(const std::vector<StructureModes>& structures, Summary& s
   std::size_t mode = 0;
   for (const StructureModes& modes : structures) {
     for (const Vector3& share : modes.participation) {
-      if (mode < summary.modes.size()) summary.modes[mode++].participation = share.maxCoeff();
+      if (mode == summary.modes.size()) return;
+      summary.modes[mode].participation = share.maxCoeff();
+      summary.modes[mode++].shares = share;
     }
   }
 }

@@ -125,7 +125,8 @@ void of_coarse_motions(const Model& model, const Summary& summary, Sentences& ou
     }
     const ModeNumerics* fastest = nullptr;
     for (const ModeNumerics& mode : summary.modes) {
-      if (mode.participation >= 0.05 && (!fastest || mode.frequency > fastest->frequency) && mode.frequency * motion.dt < 1 &&
+      const double shaken = mode.shares.dot(motion.direction.cwiseAbs2());
+      if (shaken >= 0.05 && (!fastest || mode.frequency > fastest->frequency) && mode.frequency * motion.dt < 1 &&
           kept_between_samples(mode.frequency, motion.dt) < 0.9) {
         fastest = &mode;
       }

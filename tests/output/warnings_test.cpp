@@ -34,7 +34,7 @@ struct Run {
     GroundMotion motion;
     motion.dt = sample;
     model.motions = {motion};
-    summary.modes = {{"left", "L2", frequency, 0.02, 0.02, frequency, 0.2}};
+    summary.modes = {{"left", "L2", frequency, 0.02, 0.02, frequency, 0.2, {0.2, 0, 0}}};
   }
 };
 
@@ -82,6 +82,9 @@ TEST_CASE("a penetration of more than a twentieth of the smallest gap is told") 
 TEST_CASE("a ground motion too coarse for a mode is told with what is left of it") {
   Run run;
   run.shake(0.02, 8);  // sinc(0.16)^2 = 0.919
+  CHECK(run.warnings().empty());
+  run.shake(0.02, 12.5);
+  run.model.motions[0].direction = Vector3::UnitZ();  // does not shake the mode
   CHECK(run.warnings().empty());
   run.shake(0.02, 12.5);  // sinc(1/4)^2 = 8/pi^2 = 0.811
   REQUIRE(run.warnings().size() == 1);
