@@ -2,15 +2,17 @@
 
 usage: langlade_2021_test.py PROGRAM SOURCE_DIR
 
-Standard library only. The page is made anew and compared word by word. Of the runs, those of the shipped record are repeated:
+Standard library only, and matplotlib where it is there: then the figures are drawn. The page is made anew and compared word by word. Of the runs, those of the shipped record are repeated:
 the rows of El Centro in Tables 5 and 8 under the paper's scheme and converged, the pull-back, the frequencies of Table 7; those of
 Table 5 also by two_oscillators.py, without the program. Errors of the ball and of the pull-back against closed forms are in
 closed_form_test.cpp.
 """
+import importlib.util
 import json
 import os
 import re
 import sys
+import tempfile
 
 PROGRAM, SOURCE = sys.argv[1:]
 FOLDER = os.path.join(SOURCE, "examples", "langlade_2021")
@@ -109,6 +111,21 @@ for slabs, summary in (("flexible", story), ("rigid", runs["rigid"])):
             allowed = 0.0125 if (side, mode) == ("right", "L2") else 0.01
             require(slabs == "rigid" or abs(of[mode]["frequency"] / paper - 1) < allowed,
                     f"{side}.{mode}: {of[mode]['frequency']} Hz, the paper has {paper}")
+
+if importlib.util.find_spec("matplotlib"):
+    import pathlib
+
+    import figures
+
+    with tempfile.TemporaryDirectory() as folder:
+        figures.draw(results, json.loads(read("examples", "langlade_2021", "curves.json")), pathlib.Path(folder))
+        require(sorted(os.listdir(folder)) == sorted(images), "figures.py draws every figure of the page, and no other")
+        for image in os.listdir(folder):
+            size = os.path.getsize(os.path.join(folder, image))
+            kept = os.path.getsize(os.path.join(SOURCE, "docs", "images", "langlade_2021", image))
+            require(0.8 < size / kept < 1.25, f"{image}: {size} bytes, the page's has {kept}")
+else:
+    print("without matplotlib figures are not drawn")
 
 for fault in faults:
     print(fault)
