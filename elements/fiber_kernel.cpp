@@ -66,9 +66,6 @@ HWY_NOINLINE void add_block(const Law& block_law, const FiberSection& section, c
 
 constexpr double farthest_reach = 1e300;
 
-template <class Law>
-concept Screened = requires(const Law& law) { law.quiet_limit(0.0); };
-
 template <class QuietHistory>
 using QuietComponents = std::make_index_sequence<std::is_empty_v<QuietHistory> ? 0 : sizeof(QuietHistory) / sizeof(Lanes)>;
 

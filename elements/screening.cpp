@@ -10,9 +10,6 @@ namespace nsframe {
 namespace {
 
 template <class Law>
-concept Screened = requires(const Law& law) { law.quiet_limit(0.0); };
-
-template <class Law>
 using Quiet = typename Law::template QuietHistory<double>;
 
 QuietHead& head_of(double* history) { return *reinterpret_cast<QuietHead*>(history); }

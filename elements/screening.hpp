@@ -30,6 +30,10 @@ inline constexpr int section_head = sizeof(QuietHead) / sizeof(double);
 
 inline bool is_quiet(const double* history) { return history[0] != 0; }
 
+// A law that has what law.hpp asks for screening.
+template <class Law>
+concept Screened = requires(const Law& law) { law.quiet_limit(0.0); };
+
 // The law's quiet_limit(), 0 for a law that has none.
 double quiet_limit(const UniaxialLaw& law, double error);
 

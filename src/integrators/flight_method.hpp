@@ -2,6 +2,7 @@
 // method is one file with a class derived from FlightMethod, one line in flight_methods.cpp and one test.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "integrators/algorithms.hpp"
@@ -32,6 +33,48 @@ struct FactoredStiffness {
 
   void save(Snapshot& snapshot, const std::string& name) const { matrix.save(snapshot, name); }
   void restore(System& system, const Snapshot& snapshot, const std::string& name);
+};
+
+// The problem of an implicit method over a whole step: R(x) = 0 with dR/dx = M + a C + b K, K that of the members at the step's end.
+class FlightProblem : public NonlinearStep {
+ public:
+  struct Factors {
+    FactoredStiffness& own;
+    double a, b;  // [s], [s2]
+  };
+  FlightProblem(const Factors& factors, const AnalysisOptions& options, System& system, const FlightStep& step, Motion& end, VectorX guess,
+                StepResult& result);
+
+  void restart() override;
+  const VectorX& residual() const override { return residual_; }
+  double error() const override { return result_.residual / options_.newton_tolerance; }
+  void factor(Tangent which) override;
+  void solve(const VectorX& rhs, VectorX& solution) override;
+  void move(const VectorX& change) override;
+  bool guess_may_stand() const override { return true; }
+  bool has_factors() const override { return factors_.own.matrix.ready(factors_.a, factors_.b); }
+  double slow_reduction() const override { return 0.005; }
+
+  VectorX x;
+
+ protected:
+  // Sets end_ and residual_ at x by members(), and measure()s the residual.
+  virtual void evaluate(bool with_tangent) = 0;
+  // Internal force and histories at end_.q.
+  void members(bool with_tangent);
+  // `scale`: what the residual is small against [N].
+  void measure(double scale) { result_.residual = residual_.norm() / std::max(scale, 1e-300); }
+
+  System& system_;
+  const FlightStep& step_;
+  Motion& end_;
+  VectorX residual_;
+
+ private:
+  const Factors factors_;
+  const AnalysisOptions& options_;
+  const VectorX guess_;
+  StepResult& result_;
 };
 
 class FlightMethod {

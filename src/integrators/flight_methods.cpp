@@ -53,6 +53,38 @@ std::vector<Eigen::Index> massless_dofs(const System& system) {
   return found;
 }
 
+FlightProblem::FlightProblem(const Factors& factors, const AnalysisOptions& options, System& system, const FlightStep& step, Motion& end,
+                             VectorX guess, StepResult& result)
+    : system_(system), step_(step), end_(end), factors_(factors), options_(options), guess_(std::move(guess)), result_(result) {}
+
+void FlightProblem::restart() {
+  system_.assembler.start_step(step_.committed, step_.trial);
+  x = guess_;
+  evaluate(false);
+}
+
+void FlightProblem::factor(Tangent which) {
+  if (which == Tangent::current && !system_.assembler.tangent_is_current()) evaluate(true);
+  FactoredStiffness& own = factors_.own;
+  own.stiffness = which == Tangent::initial ? system_.initial_stiffness : system_.assembler.tangent();
+  own.matrix.factor(system_, own.stiffness, factors_.a, factors_.b);
+}
+
+void FlightProblem::solve(const VectorX& rhs, VectorX& solution) {
+  factors_.own.matrix.solve(rhs, solution);
+  ++result_.solves;
+}
+
+void FlightProblem::move(const VectorX& change) {
+  x += change;
+  evaluate(false);
+}
+
+void FlightProblem::members(bool with_tangent) {
+  system_.assembler.internal_force(end_.q, step_.committed, step_.trial, end_.P, with_tangent);
+  ++result_.evaluations;
+}
+
 void solve_flight(Ladder& ladder, NonlinearStep& problem, const AnalysisOptions& options, const System& system, double time,
                   StepResult& result) {
   if (!ladder.climb(problem, options.max_newton, result.attempts)) {

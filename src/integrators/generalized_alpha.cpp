@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "integrators/mode_response.hpp"
 
 namespace nsframe {
@@ -37,61 +35,29 @@ Scheme::ModeResponse generalized_alpha_response(const GeneralizedAlphaParameters
 }
 
 // x is a+, R as in the header, divided by 1 - alpha_m.
-class GeneralizedAlpha::Step : public NonlinearStep {
+class GeneralizedAlpha::Step : public FlightProblem {
  public:
   Step(GeneralizedAlpha& method, System& system, const FlightStep& step, const Start& start, Motion& end, VectorX guess, StepResult& result)
-      : method_(method), system_(system), step_(step), start_(start), end_(end), guess_(std::move(guess)), result_(result) {}
-
-  void restart() override {
-    system_.assembler.start_step(step_.committed, step_.trial);
-    a = guess_;
-    evaluate(false);
-  }
-  const VectorX& residual() const override { return residual_; }
-  double error() const override { return result_.residual / method_.options_.newton_tolerance; }
-  void factor(Tangent which) override {
-    if (which == Tangent::current && !system_.assembler.tangent_is_current()) evaluate(true);
-    method_.own_.stiffness = which == Tangent::initial ? system_.initial_stiffness : system_.assembler.tangent();
-    method_.own_.matrix.factor(system_, method_.own_.stiffness, method_.p_.damping(step_.length), method_.p_.stiffness(step_.length));
-  }
-  void solve(const VectorX& rhs, VectorX& x) override {
-    method_.own_.matrix.solve(rhs, x);
-    ++result_.solves;
-  }
-  void move(const VectorX& change) override {
-    a += change;
-    evaluate(false);
-  }
-  bool guess_may_stand() const override { return true; }
-  bool has_factors() const override { return method_.own_.matrix.ready(method_.p_.damping(step_.length), method_.p_.stiffness(step_.length)); }
-  double slow_reduction() const override { return 0.005; }
-
-  VectorX a;
+      : FlightProblem({method.own_, method.p_.damping(step.length), method.p_.stiffness(step.length)}, method.options_, system, step, end,
+                      std::move(guess), result),
+        method_(method), start_(start) {}
 
  private:
-  void evaluate(bool with_tangent) {
+  void evaluate(bool with_tangent) override {
     const GeneralizedAlphaParameters& p = method_.p_;
     const double h = step_.length;
-    end_.q = start_.q + (p.beta * h * h) * a;
-    end_.v = start_.v + (p.gamma * h) * a;
-    system_.assembler.internal_force(end_.q, step_.committed, step_.trial, end_.P, with_tangent);
-    ++result_.evaluations;
-    const VectorX inertia = (1 - p.alpha_m) * (system_.mass() * a);
+    end_.q = start_.q + (p.beta * h * h) * x;
+    end_.v = start_.v + (p.gamma * h) * x;
+    members(with_tangent);
+    const VectorX inertia = (1 - p.alpha_m) * (system_.mass() * x);
     residual_ = inertia + start_.known + (1 - p.alpha_f) * end_.P;
     system_.damping.add_force(system_.assembler.blocks(), 1 - p.alpha_f, end_.v, residual_);
-    const double scale = inertia.norm() + start_.known.norm() + (1 - p.alpha_f) * end_.P.norm() + method_.least_scale_;
-    result_.residual = residual_.norm() / std::max(scale, 1e-300);
+    measure(inertia.norm() + start_.known.norm() + (1 - p.alpha_f) * end_.P.norm() + method_.least_scale_);
     residual_ /= 1 - p.alpha_m;
   }
 
-  GeneralizedAlpha& method_;
-  System& system_;
-  const FlightStep& step_;
+  const GeneralizedAlpha& method_;
   const Start& start_;
-  Motion& end_;
-  const VectorX guess_;
-  StepResult& result_;
-  VectorX residual_;
 };
 
 GeneralizedAlpha::GeneralizedAlpha(const AnalysisOptions& options, const System& system, const GeneralizedAlphaParameters& parameters,
@@ -172,7 +138,7 @@ void GeneralizedAlpha::step(System& system, const FlightStep& step, Motion& end,
   }
   Step problem(*this, system, step, start, end, std::move(next), result);
   solve_flight(ladder_, problem, options_, system, step.time, result);
-  finish(step, start, problem.a, end);
+  finish(step, start, problem.x, end);
 }
 
 std::unique_ptr<FlightMethod> make_generalized_alpha(const AnalysisOptions& options, const System& system) {

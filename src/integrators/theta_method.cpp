@@ -43,60 +43,27 @@ class ThetaMethod : public FlightMethod {
   std::vector<Eigen::Index> massless_;
 };
 
-class ThetaMethod::Step : public NonlinearStep {
+class ThetaMethod::Step : public FlightProblem {
  public:
   Step(ThetaMethod& method, System& system, const FlightStep& step, Motion& end, const VectorX& load, VectorX guess, StepResult& result)
-      : method_(method), system_(system), step_(step), end_(end), load_(load), guess_(std::move(guess)), result_(result) {}
-
-  void restart() override {
-    system_.assembler.start_step(step_.committed, step_.trial);
-    mean = guess_;
-    evaluate(false);
-  }
-  const VectorX& residual() const override { return residual_; }
-  double error() const override { return result_.residual / method_.options_.newton_tolerance; }
-  void factor(Tangent which) override {
-    if (which == Tangent::current && !system_.assembler.tangent_is_current()) evaluate(true);
-    FactoredStiffness& own = method_.own_;
-    own.stiffness = which == Tangent::initial ? system_.initial_stiffness : system_.assembler.tangent();
-    own.matrix.factor(system_, own.stiffness, method_.options_.theta * step_.length);
-  }
-  void solve(const VectorX& rhs, VectorX& x) override {
-    method_.own_.matrix.solve(rhs, x);
-    ++result_.solves;
-  }
-  void move(const VectorX& change) override {
-    mean += change;
-    evaluate(false);
-  }
-  bool guess_may_stand() const override { return true; }
-  bool has_factors() const override { return method_.own_.matrix.ready(method_.options_.theta * step_.length); }
-  double slow_reduction() const override { return 0.005; }
-
-  VectorX mean;
+      : FlightProblem(factors(method, method.options_.theta * step.length), method.options_, system, step, end, std::move(guess), result),
+        method_(method), load_(load) {}
 
  private:
-  void evaluate(bool with_tangent) {
+  static Factors factors(ThetaMethod& method, double a) { return {method.own_, a, a * a}; }
+  void evaluate(bool with_tangent) override {
     const double theta = method_.options_.theta, h = step_.length;
-    end_.q = step_.start.q + h * mean;
-    system_.assembler.internal_force(end_.q, step_.committed, step_.trial, end_.P, with_tangent);
-    ++result_.evaluations;
-    const VectorX inertia = system_.mass() * (mean - step_.start.v);
+    end_.q = step_.start.q + h * x;
+    members(with_tangent);
+    const VectorX inertia = system_.mass() * (x - step_.start.v);
     residual_ = h * ((1 - theta) * step_.start.P + theta * end_.P) - load_;
-    system_.damping.add_force(system_.assembler.blocks(), h, mean, residual_);
+    system_.damping.add_force(system_.assembler.blocks(), h, x, residual_);
     residual_ = inertia + theta * residual_;
-    const double scale = inertia.norm() + theta * (h * (method_.least_scale_ + end_.P.norm()) + load_.norm());
-    result_.residual = residual_.norm() / std::max(scale, 1e-300);
+    measure(inertia.norm() + theta * (h * (method_.least_scale_ + end_.P.norm()) + load_.norm()));
   }
 
-  ThetaMethod& method_;
-  System& system_;
-  const FlightStep& step_;
-  Motion& end_;
+  const ThetaMethod& method_;
   const VectorX& load_;
-  const VectorX guess_;
-  StepResult& result_;
-  VectorX residual_;
 };
 
 void ThetaMethod::step(System& system, const FlightStep& step, Motion& end, StepResult& result) {
@@ -114,7 +81,7 @@ void ThetaMethod::step(System& system, const FlightStep& step, Motion& end, Step
   } else {
     Step problem(*this, system, step, end, load, std::move(mean), result);
     solve_flight(ladder_, problem, options_, system, step.time, result);
-    mean = std::move(problem.mean);
+    mean = std::move(problem.x);
   }
   end.v = step.start.v + (mean - step.start.v) / theta;
   end.a.resize(0);

@@ -6,7 +6,6 @@
 Ends with 77, which CTest counts as skipped, where pvbatch and a screen (DISPLAY, or Xvfb) are missing: Debian's paraview,
 python3-paraview and xvfb.
 """
-import json
 import os
 import pathlib
 import shutil
@@ -16,8 +15,8 @@ import tempfile
 import time
 
 from png_pixels import pixels
+from program import run
 
-PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 KEEP = pathlib.Path(sys.argv[4]).resolve() if len(sys.argv) > 4 else None
 SKIPPED, ATTEMPTS = 77, 3
 DRIVER = """import runpy, sys
@@ -90,10 +89,7 @@ def main():
     try:
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            ran = subprocess.run([PROGRAM, "run", SOURCE / "examples/two_story_elastic/scene.toml", "-q", "-o", folder, "--set",
-                                  "analysis.duration=3", "--set", "output.frames=50 Hz"], capture_output=True, text=True)
-            require(ran.returncode == 0, ran.stderr)
-            summary = json.loads((folder / "summary.json").read_text())
+            summary = run(folder, "two_story_elastic", "analysis.duration=3", "output.frames=50 Hz")
             at = summary["poundings"][0]["t"]
             hit = show(environment, folder, "%.3f" % (0.02 * -(-at // 0.02)))
             before = show(environment, folder, "%.3f" % (0.02 * (at // 0.02)))

@@ -3,33 +3,21 @@
 
     plot_test.py PROGRAM SOURCE png|no-png [--keep FOLDER]      (png: the program was built with librsvg; for the figures)
 """
-import json
 import math
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
 import xml.etree.ElementTree
 
 from png_pixels import pixels
+from program import SOURCE, nsframe, run
 
-PROGRAM, SOURCE, PNG = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve(), sys.argv[3] == "png"
+PNG = sys.argv[3] == "png"
 KEEP = pathlib.Path(sys.argv[5]).resolve() if len(sys.argv) > 5 else None
 HISTORY = 'output.history=["nodes", "contacts", "energy", "ground", "sections"]'
-
-
-def nsframe(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
-
-
-def run(folder, example, *settings):
-    flags = [flag for setting in settings for flag in ("--set", setting)]
-    ran = nsframe("run", SOURCE / "examples" / example / "scene.toml", "-q", "-o", folder, "--set", "output.frames=0", *flags)
-    assert ran.returncode == 0, ran.stderr
-    return json.loads((pathlib.Path(folder) / "summary.json").read_text())
 
 
 def number(text):

@@ -16,29 +16,23 @@ import tempfile
 import unittest
 
 from png_pixels import pixels
+from program import nsframe, run
 
-PROGRAM, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
 KEEP = pathlib.Path(sys.argv[4]).resolve() if len(sys.argv) > 4 else None
 BROWSER = next((found for found in map(shutil.which, ("chromium", "chromium-browser", "google-chrome")) if found), None)
 PAIR = ("two_story_elastic", "analysis.duration=6", "output.floor_spectra=floors",
         'output.history=["nodes", "contacts", "energy", "ground"]')
 
 
-def nsframe(*arguments):
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=300)
-
-
 def make(folder, example, *settings):
     """Runs an example and makes its page: text of the page, its data, the summary."""
-    flags = [flag for setting in settings for flag in ("--set", setting)]
-    ran = nsframe("run", SOURCE / "examples" / example / "scene.toml", "-q", "-o", folder, "--set", "output.frames=0", *flags)
-    assert ran.returncode == 0, ran.stderr
+    summary = run(folder, example, *settings)
     made = nsframe("report", folder)
     assert made.returncode == 0, made.stderr
     page = (pathlib.Path(folder) / "report.html").read_text(encoding="utf-8")
     text = re.search(r'<script type="application/json" id="run">(.*?)</script>', page, re.S).group(1)
     data = json.loads(text, parse_constant=lambda word: (_ for _ in ()).throw(ValueError(word)))
-    return page, data, json.loads((pathlib.Path(folder) / "summary.json").read_text())
+    return page, data, summary
 
 
 def charts_of(data):

@@ -1,11 +1,11 @@
 // The SIMD kernel of fiber sections against the scalar definition, on every instruction set of this machine.
 #include <doctest/doctest.h>
 
-#include <hwy/targets.h>
 
 #include <random>
 
 #include "elements/fiber_section.hpp"
+#include "tests/support/simd_targets.hpp"
 
 using namespace nsframe;
 
@@ -54,15 +54,10 @@ TEST_CASE("the SIMD kernel equals the scalar fibers on every instruction set of 
   const FiberSection section(mixed_fibers(), 1e4);
   CHECK(section.fibers == 53);
   CHECK(section.blocks.size() == 10);
-  const auto supported = hwy::SupportedTargets();
-  for (auto target = supported; target != 0; target &= target - 1) {
-    const auto lowest = target & (~target + 1);
-    hwy::SetSupportedTargetsForTest(lowest);
-    CAPTURE(hwy::TargetName(lowest));
+  test::on_every_simd_target([&](const std::string&) {
     // powers x^R carry the rounding of R log x, about R |log x| epsilons
     CHECK(largest_difference(section) < 1e-12);
-  }
-  hwy::SetSupportedTargetsForTest(0);
+  });
 }
 
 TEST_CASE("more wrapped fibers than are evaluated at a time equal as many sections") {

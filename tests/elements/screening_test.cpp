@@ -3,9 +3,9 @@
 
 #include <doctest/doctest.h>
 
-#include <hwy/targets.h>
-
 #include <random>
+
+#include "tests/support/simd_targets.hpp"
 
 using namespace nsframe;
 
@@ -83,10 +83,7 @@ Comparison compare(const FiberSection& section, double amplitude, int steps, uns
 }  // namespace
 
 TEST_CASE("a screened section answers like its fibers, before and after it leaves the elastic range") {
-  const auto supported = hwy::SupportedTargets();
-  for (auto target = supported; target != 0; target &= target - 1) {
-    hwy::SetSupportedTargetsForTest(target & (~target + 1));
-    CAPTURE(std::string(hwy::TargetName(target & (~target + 1))));
+  test::on_every_simd_target([](const std::string&) {
     for (const NamedSection& named : sections()) {
       CAPTURE(std::string(named.name));
       CHECK(named.section.screened);
@@ -98,8 +95,7 @@ TEST_CASE("a screened section answers like its fibers, before and after it leave
         }
       }
     }
-  }
-  hwy::SetSupportedTargetsForTest(0);
+  });
 }
 
 TEST_CASE("a section is quiet while its strains are small, and no longer once a fiber left the line") {

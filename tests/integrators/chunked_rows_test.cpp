@@ -2,11 +2,11 @@
 #include "base/chunked_rows.hpp"
 
 #include <doctest/doctest.h>
-#include <hwy/targets.h>
 
 #include <random>
 
 #include "tests/support/numbers.hpp"
+#include "tests/support/simd_targets.hpp"
 
 using namespace nsframe;
 
@@ -36,17 +36,12 @@ SparseMatrix spring_net(int size, unsigned seed) {
 
 template <class Check>
 void for_targets_and_sizes(const Check& check) {
-  const auto supported = hwy::SupportedTargets();
-  for (auto left = supported; left != 0; left &= left - 1) {
-    const auto lowest = left & (~left + 1);
-    hwy::SetSupportedTargetsForTest(lowest);
-    CAPTURE(hwy::TargetName(lowest));
+  test::on_every_simd_target([&](const std::string&) {
     for (const int size : {1, 2, 3, 4, 5, 8, 23, 64, 301}) {
       CAPTURE(size);
       check(size);
     }
-  }
-  hwy::SetSupportedTargetsForTest(0);
+  });
 }
 
 }  // namespace

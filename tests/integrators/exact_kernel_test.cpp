@@ -2,33 +2,17 @@
 #include "integrators/exact_kernel.hpp"
 
 #include <doctest/doctest.h>
-#include <hwy/targets.h>
 
 #include "base/block_operator.hpp"
 #include "base/dense_kernel.hpp"
 #include "tests/support/numbers.hpp"
+#include "tests/support/simd_targets.hpp"
 
 using namespace nsframe;
 
-namespace {
-
-template <class Check>
-void on_every_target(const Check& check) {
-  const auto supported = hwy::SupportedTargets();
-  for (auto left = supported; left != 0; left &= left - 1) {
-    const auto lowest = left & (~left + 1);
-    hwy::SetSupportedTargetsForTest(lowest);
-    CAPTURE(hwy::TargetName(lowest));
-    check();
-  }
-  hwy::SetSupportedTargetsForTest(0);
-}
-
-}  // namespace
-
 TEST_CASE("exact kernel: a block operator multiplies one vector, and two in one pass, as plain products do") {
   std::srand(1);
-  on_every_target([] {
+  test::on_every_simd_target([](const std::string&) {
     for (const int size : {1, 7, 8, 9, 16, 40, 68, 72, 73, 136}) {
       CAPTURE(size);
       const MatrixX A = MatrixX::Random(size, size), B = MatrixX::Random(3, 3);
@@ -58,7 +42,7 @@ TEST_CASE("exact kernel: two right-hand sides with a sparse block") {
 
 TEST_CASE("exact kernel: work, strain and kinetic energy of a flight are plain sums") {
   std::srand(2);
-  on_every_target([] {
+  test::on_every_simd_target([](const std::string&) {
     constexpr int n = 4 * dense_row_padding;
     const double s = 0.3;
     const auto random = [] { return VectorX(VectorX::Random(n)); };

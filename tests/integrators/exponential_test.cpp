@@ -11,22 +11,6 @@
 using namespace nsframe;
 using namespace nsframe::test;
 
-namespace {
-
-// A yielding mass thrown at another one, both on springs with hardening: impacts while both yield.
-ModelDescription yielding_masses(const UniaxialLaw& law) {
-  ModelDescription d = nonlinear_oscillator(1000, law, 0, 1.5);
-  ModelDescription other = nonlinear_oscillator(700, law);
-  d.structures.push_back(other.structures[0]);
-  d.structures[1].name = "t";
-  ContactDescription c = wall("s.1", 0.01, 0.6);
-  c.b = Reference{"t.1", {}};
-  d.contacts = {c};
-  return d;
-}
-
-}  // namespace
-
 TEST_CASE("exponential: a linear scene moves as the exact scheme says") {
   ModelDescription d = linear_oscillator(4600, 2.11e6, 0.005, -0.024);
   d.structures.push_back(linear_oscillator(3500, 5.31e6, 0.005).structures[0]);

@@ -138,11 +138,7 @@ TEST_CASE("event-split: every method is of second order across the impacts of th
 }
 
 TEST_CASE("event-split: generalized-alpha and alpha-OS on yielding masses and fiber members that hit each other, of second order") {
-  ModelDescription masses = nonlinear_oscillator(1000, Steel01{8e3, 2e6, 0.05}, 0, 1.5);
-  masses.structures.push_back(nonlinear_oscillator(700, Steel01{8e3, 2e6, 0.05}).structures[0]);
-  masses.structures[1].name = "t";
-  masses.contacts = {wall("s.1", 0.01, 0.6)};
-  masses.contacts[0].b = Reference{"t.1", {}};
+  const ModelDescription masses = yielding_masses(Steel01{8e3, 2e6, 0.05});
   const auto slope = [](const ModelDescription& d, double dt, double duration, double most) {
     const Run fine = completed(d, by_scheme("exponential", dt / 32, duration));
     REQUIRE_FALSE(fine.summary.impacts.empty());

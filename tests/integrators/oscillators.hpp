@@ -48,6 +48,18 @@ inline ContactDescription wall(const std::string& node, double gap, double e) {
   return c;
 }
 
+// A yielding mass thrown at another one, both on springs with hardening: impacts while both yield.
+inline ModelDescription yielding_masses(const UniaxialLaw& law) {
+  ModelDescription d = nonlinear_oscillator(1000, law, 0, 1.5);
+  ModelDescription other = nonlinear_oscillator(700, law);
+  d.structures.push_back(other.structures[0]);
+  d.structures[1].name = "t";
+  ContactDescription c = wall("s.1", 0.01, 0.6);
+  c.b = Reference{"t.1", {}};
+  d.contacts = {c};
+  return d;
+}
+
 // Two fiber cantilevers of three elements each side by side, the first moving towards the second, 1 cm apart.
 inline ModelDescription fiber_pair(const UniaxialLaw& law, ElementKind kind, double velocity, Geometry geometry = Geometry::linear) {
   ModelDescription d;

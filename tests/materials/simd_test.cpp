@@ -1,12 +1,12 @@
 // The SIMD twin of every registered law against its scalar definition, on every instruction set of this machine.
 #include <doctest/doctest.h>
 
-#include <hwy/targets.h>
 
 #include <random>
 #include <set>
 
 #include "tests/materials/point.hpp"
+#include "tests/support/simd_targets.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
@@ -61,12 +61,8 @@ Difference largest_difference(const Sample& sample) {
 
 TEST_CASE("SIMD laws equal their scalar twins within 4 ulp times their conditioning on every instruction set") {
   std::set<std::string> names;
-  const auto supported = hwy::SupportedTargets();
-  for (auto target = supported; target != 0; target &= target - 1) {
-    const auto lowest = target & (~target + 1);
-    hwy::SetSupportedTargetsForTest(lowest);
-    names.insert(hwy::TargetName(lowest));
-    CAPTURE(std::string(hwy::TargetName(lowest)));
+  test::on_every_simd_target([&](const std::string& target) {
+    names.insert(target);
     for (const Sample& sample : samples()) {
       CAPTURE(std::string(sample.name));
       const double tolerance = 4 * epsilon * (1 + sample.conditioning);
@@ -74,8 +70,7 @@ TEST_CASE("SIMD laws equal their scalar twins within 4 ulp times their condition
       CHECK(difference.stress <= tolerance);
       CHECK(difference.tangent <= tolerance);
     }
-  }
-  hwy::SetSupportedTargetsForTest(0);
+  });
   std::string list;
   for (const std::string& name : names) list += " " + name;
   MESSAGE("instruction sets:" << list);
