@@ -87,7 +87,7 @@ def sweep(steps, known, one):
         previous = None
         for dt in steps:
             error, impacts, summary = one(theta, gamma, dt)
-            order = math.log(previous[1] / error) / math.log(previous[0] / dt) if previous and error > 0 else None
+            order = math.log(previous[1] / error) / math.log(previous[0] / dt) if previous and previous[1] > 0 and error > 0 else None
             previous = dt, error
             figure = known.get((theta, gamma, dt))
             rows.append(dict(theta=theta, gamma=gamma, dt=dt, error_m=error, order=order, impacts=impacts,
