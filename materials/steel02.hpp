@@ -31,19 +31,19 @@ struct Steel02 {
   double a4 = 1;         // [-]
   double sigInit = 0;    // initial stress [Pa]
 
-  // Direction, target and s_0 of the branch follow from these: e_0 - e_r has the branch's sign (0 before any strain), it
-  // runs towards the extreme strain of that side, and s_0 lies on the elastic line through (e_r, s_r).
+  // What the curve of a branch needs beside its origin is found when it begins.
   template <class T>
   struct History {
     T strain;           // [-], including sigInit / E
     T stress;           // [Pa]
     T least_strain;     // smallest strain at a reversal, at most -fy/E
     T largest_strain;   // largest strain at a reversal, at least fy/E
-    T asymptote_strain; // e_0
     T reversal_strain;  // e_r
     T reversal_stress;  // s_r
+    T inverse_range;    // 1/(e_0 - e_r), of the branch's sign; 0 before any strain
+    T R, inverse_R;     // and 1/R
   };
-  History<double> virgin() const { return {sigInit / E, sigInit, -fy / E, fy / E, 0, 0, 0}; }
+  History<double> virgin() const { return {sigInit / E, sigInit, -fy / E, fy / E, 0, 0, 0, R0, 1 / R0}; }
   // Without isotropic hardening, a virgin fiber reverses on the elastic line, which meets the asymptotes at +-fy/E
   // whatever it has done: R remains R0, and the curve leaves the line by |e*|^R / R, lost in rounding below 2^-54 / R.
   template <class T>
@@ -52,8 +52,8 @@ struct Steel02 {
   };
   double quiet_limit(double error) const { return a1 == 0 && a3 == 0 ? std::pow(std::max(error, 0x1p-54), 1 / R0) : 0; }
   History<double> opened(double strain_from_zero, const QuietHistory<double>& quiet) const {
-    const double strain = strain_from_zero + sigInit / E;
-    return {strain, E * strain, -fy / E, fy / E, quiet.asymptote_strain, quiet.reversal_strain, E * quiet.reversal_strain};
+    const double strain = strain_from_zero + sigInit / E, range = quiet.asymptote_strain - quiet.reversal_strain;
+    return {strain, E * strain, -fy / E, fy / E, quiet.reversal_strain, E * quiet.reversal_strain, range == 0 ? 0 : 1 / range, R0, 1 / R0};
   }
   double initial_tangent() const { return E; }
   double yield_strain() const { return fy / E; }
@@ -85,27 +85,22 @@ HWY_BEFORE_NAMESPACE();
 namespace nsframe {
 namespace HWY_NAMESPACE {
 
+// The branch of a point that has reversed, or was never strained.
 template <class T>
-HWY_INLINE Response<T, Steel02> respond(const Steel02& law, T strain_from_zero, const Steel02::History<T>& committed) {
+HWY_INLINE void start_branch(const Steel02& law, T increment, const Steel02::History<T>& committed, Steel02::History<T>& next) {
   const double E = law.E, hardening = law.b * law.E, yield_strain = law.fy / law.E;
   const T zero(0.0), one(1.0);
-  const T strain = strain_from_zero + T(law.sigInit / E);
-  const T increment = strain - committed.strain;
-  const T committed_range = committed.asymptote_strain - committed.reversal_strain;
-  const auto first = committed_range == zero;
+  const auto first = committed.inverse_range == zero;
   // 10 machine epsilons: a virgin fiber that has hardly moved has no direction yet, but already its elastic stress:
   // a stress that stays behind would be a jump, on which sections in equilibrium with small forces do not converge
-  const auto unmoved = both(first, abs(increment) < T(2.220446049250313e-15));
-  const auto rising = increment > zero;
+  const auto begins = except(first, abs(increment) < T(2.220446049250313e-15));
+  const auto rising = increment > zero, reversed = committed.inverse_range * increment < zero;
   const T sign = select(rising, one, T(-1.0));
-
-  const auto reversed = committed_range * increment < zero;
-  const T least_strain = select(both(reversed, rising), min(committed.least_strain, committed.strain), committed.least_strain);
-  const T largest_strain =
-      select(both(reversed, increment < zero), max(committed.largest_strain, committed.strain), committed.largest_strain);
+  next.least_strain = select(both(reversed, rising), min(committed.least_strain, committed.strain), committed.least_strain);
+  next.largest_strain = select(both(reversed, increment < zero), max(committed.largest_strain, committed.strain), committed.largest_strain);
   T shift = one;
   if (law.a1 != 0 || law.a3 != 0) {
-    const T excursion = largest_strain - least_strain;
+    const T excursion = next.largest_strain - next.least_strain;
     shift = one + select(rising, T(law.a3), T(law.a1)) *
                       pow(excursion * select(rising, T(0.5 / (law.a4 * yield_strain)), T(0.5 / (law.a2 * yield_strain))), T(0.8));
   }
@@ -113,35 +108,40 @@ HWY_INLINE Response<T, Steel02> respond(const Steel02& law, T strain_from_zero, 
   // leaves of it when a strain far out on the asymptote reverses twice
   const T outward = shift * T(law.fy * (1 - law.b)) - sign * (committed.stress - T(hardening) * committed.strain);
   const T new_range = sign * max(outward * T(1 / (E - hardening)), T(1e-12 * yield_strain));
-  const T reversal_strain = select(reversed, committed.strain, committed.reversal_strain);
-  const T reversal_stress = select(reversed, committed.stress, committed.reversal_stress);
-  const T asymptote_strain =
-      select(reversed, committed.strain + new_range, select(first, sign * T(yield_strain), committed.asymptote_strain));
+  next.reversal_strain = select(reversed, committed.strain, committed.reversal_strain);
+  next.reversal_stress = select(reversed, committed.stress, committed.reversal_stress);
+  const T asymptote_strain = select(reversed, committed.strain + new_range, sign * T(yield_strain));
 
-  // R = R0 above / below with below = cR2 + x, above = cR2 + (1 - cR1) x; one division serves R, 1/R and e*
-  const T range = asymptote_strain - reversal_strain;
-  const T target_strain = select(range > zero, largest_strain, least_strain);
+  // R = R0 above / below with below = cR2 + x, above = cR2 + (1 - cR1) x; one division serves R, 1/R and the range
+  const T range = asymptote_strain - next.reversal_strain;
+  const T target_strain = select(rising, next.largest_strain, next.least_strain);
   const T excursion = abs(target_strain - asymptote_strain) * T(1 / yield_strain);
   const T below = T(law.cR2) + excursion, above = mul_add(T(1 - law.cR1), excursion, T(law.cR2));
   const T inverse = one / (above * below * range);
-  const T R = T(law.R0) * above * above * (inverse * range);
-  const T inverse_R = T(1 / law.R0) * below * below * (inverse * range);
-  const T from_reversal = strain - reversal_strain;
-  const T ratio = abs(from_reversal * inverse * above * below);
-  T curve = one, bend = T(1 - law.b);  // bend = (1 - b) / curve^(1 + 1/R)
-  if (!all(R * log2_bound(ratio) < T(-54.0))) {  // else |e*|^R is lost against 1 by rounding: a straight line
-    const T power = pow(ratio, R);
-    curve = one + power;
-    bend = bend * one_plus_pow(power, one + inverse_R);
-  }
-  const T secant = T(E) * mul_add(bend, curve, T(law.b));
-  const T stress = mul_add(from_reversal, secant, reversal_stress);
-  const T tangent = T(E) * (T(law.b) + bend);
+  const auto starts = either(reversed, begins);
+  next.R = select(starts, T(law.R0) * above * above * (inverse * range), committed.R);
+  next.inverse_R = select(starts, T(1 / law.R0) * below * below * (inverse * range), committed.inverse_R);
+  next.inverse_range = select(starts, inverse * above * below, committed.inverse_range);
+}
 
-  const T final_stress = select(unmoved, committed.stress + T(E) * increment, stress);
-  return {final_stress,
-          select(unmoved, T(E), tangent),
-          {strain, final_stress, least_strain, largest_strain, select(unmoved, zero, asymptote_strain), reversal_strain, reversal_stress}};
+template <class T>
+HWY_INLINE Response<T, Steel02> respond(const Steel02& law, T strain_from_zero, const Steel02::History<T>& committed) {
+  const T zero(0.0), one(1.0);
+  Steel02::History<T> next = committed;
+  next.strain = strain_from_zero + T(law.sigInit / law.E);
+  const T increment = next.strain - committed.strain;
+  if (!all(committed.inverse_range * increment > zero)) start_branch(law, increment, committed, next);
+
+  const T from_reversal = next.strain - next.reversal_strain, ratio = abs(from_reversal * next.inverse_range);
+  T curve = one, bend = T(1 - law.b);  // bend = (1 - b) / curve^(1 + 1/R)
+  if (!all(next.R * log2_bound(ratio) < T(-54.0))) {  // else |e*|^R is lost against 1 by rounding: a straight line
+    const T power = pow(ratio, next.R);
+    curve = one + power;
+    bend = bend * one_plus_pow(power, one + next.inverse_R);
+  }
+  const T secant = T(law.E) * mul_add(bend, curve, T(law.b));
+  next.stress = mul_add(from_reversal, secant, next.reversal_stress);
+  return {next.stress, T(law.E) * (T(law.b) + bend), next};
 }
 
 template <class T>
