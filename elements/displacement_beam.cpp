@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/errors.hpp"
+#include "elements/screening.hpp"
 
 namespace nsframe {
 
@@ -52,6 +54,127 @@ DisplacementBeams::Basic DisplacementBeams::integrate(const Element& e, const Ve
   return basic;
 }
 
+namespace {
+
+bool can_be_quiet(const FiberMember& member) {
+  return !member.releases.any() && std::all_of(member.sections.begin(), member.sections.end(), [](const auto& section) {
+    return section->screened && std::none_of(section->added.begin(), section->added.end(), [](const auto& law) { return law.has_value(); });
+  });
+}
+
+QuietNote<5>& note_of(double* history) { return *reinterpret_cast<QuietNote<5>*>(history); }
+const QuietNote<5>& note_of(const double* history) { return *reinterpret_cast<const QuietNote<5>*>(history); }
+
+// What a section went through by a member's note.
+QuietPath path_of(const QuietNote<5>& note, const StrainInterpolation& b) {
+  QuietPath path;
+  path.steps = note.pending();
+  for (int k = 0; k <= path.steps; ++k) Eigen::Map<Vector3>(path.deformation[k]) = b(Eigen::Map<const Vector5>(note.noted[k]));
+  return path;
+}
+
+// Largest change of curvature along a member by the change of its end rotations: linear in between.
+double largest_curvature(double first, double second, double length) {
+  return 2 * std::max(std::abs(2 * first + second), std::abs(first + 2 * second)) / length;
+}
+
+}  // namespace
+
+int DisplacementBeams::head_size(const FiberMember& member) const {
+  if (member.releases.any()) return 5;
+  return can_be_quiet(member) ? static_cast<int>(sizeof(Note) / sizeof(double)) : 0;
+}
+
+void DisplacementBeams::prepare(const Element& e) {
+  Virgin& virgin = virgin_.emplace_back();
+  virgin.screened = can_be_quiet(e);
+  if (!virgin.screened) return;
+  virgin.length = e.frame.length;
+  for (int i = 0; i < e.points(); ++i) {
+    const FiberSection& section = e.section(i);
+    const StrainInterpolation b = strain_interpolation(e.position(i), e.frame.length);
+    b.add_transposed(e.weight(i), section.virgin.force, virgin.force);
+    b.add_congruent(e.weight(i), section.virgin.tangent, virgin.tangent);
+    virgin.largest_y = std::max(virgin.largest_y, section.largest_y);
+    virgin.largest_z = std::max(virgin.largest_z, section.largest_z);
+  }
+}
+
+bool DisplacementBeams::quiet(int element, const double* history) const {
+  return virgin_[static_cast<std::size_t>(element)].screened && note_of(history).quiet != 0;
+}
+
+int DisplacementBeams::quiet_fibers(int element, const double* history) const {
+  return quiet(element, basic_history(element, history)) ? fibers(element) : FiberBeams::quiet_fibers(element, history);
+}
+
+void DisplacementBeams::initialize_basic(int element, double* history) const {
+  FiberBeams::initialize_basic(element, history);
+  const Element& e = element_at(element);
+  if (!virgin_[static_cast<std::size_t>(element)].screened) return;
+  note_of(history).quiet = 1;
+  for (int i = 0; i < e.points(); ++i) *e.section_history(history, i) = 0;
+}
+
+void DisplacementBeams::start_basic(int element, const double* committed, double* trial) const {
+  if (element_at(element).releases.any()) FiberBeams::start_basic(element, committed, trial);
+}
+
+const double* DisplacementBeams::with_sections(int element, const double* history, std::vector<double>& scratch) const {
+  if (!quiet(element, history)) return history;
+  const Element& e = element_at(element);
+  scratch.resize(static_cast<std::size_t>(e.section_begin.back() + e.section(e.points() - 1).history_size));
+  hand_over(element, history, scratch.data());
+  return scratch.data();
+}
+
+bool DisplacementBeams::stay_quiet(int element, const Vector5& v, const double* committed, double* trial) const {
+  const Virgin& virgin = virgin_[static_cast<std::size_t>(element)];
+  const Note& now = note_of(committed);
+  Note& next = note_of(trial);
+  const Vector5 change = v - Eigen::Map<const Vector5>(now.last);
+  const double moved = std::abs(change[0]) / virgin.length + virgin.largest_y * largest_curvature(change[1], change[2], virgin.length) +
+                       virgin.largest_z * largest_curvature(change[3], change[4], virgin.length);
+  const Element& e = element_at(element);
+  // a section's own head is stale while the member is quiet, and says so
+  if (now.reach > moved && now.pending() < pending_deformations) {
+    note(now, next, v.data(), now.reach - moved, [&] {
+      for (int i = 0; i < e.points(); ++i) {
+        copy_quiet(e.section(i), e.section_history(committed, i), e.section_history(trial, i));
+        *e.section_history(trial, i) = 0;
+      }
+    });
+    return true;
+  }
+  next.quiet = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < e.points(); ++i) {
+    const StrainInterpolation b = strain_interpolation(e.position(i), e.frame.length);
+    QuietPath path = path_of(now, b);
+    Eigen::Map<Vector3>(path.deformation[++path.steps]) = b(v);
+    double reach = 0;
+    *e.section_history(trial, i) = 0;
+    if (!follow_path(e.section(i), path, e.section_history(committed, i), e.section_history(trial, i), reach)) return false;
+    least = std::min(least, reach);
+  }
+  begin_note(next, name_after(now.path, v.data(), 5), v.data(), least);
+  return true;
+}
+
+void DisplacementBeams::hand_over(int element, const double* quiet, double* history) const {
+  const Element& e = element_at(element);
+  const Note& now = note_of(quiet);
+  note_of(history).quiet = 0;
+  for (int i = 0; i < e.points(); ++i) {
+    const QuietPath path = path_of(now, strain_interpolation(e.position(i), e.frame.length));
+    double reach = 0;  // no fiber leaves the line: it has been there
+    double* const own = e.section_history(history, i);
+    follow_path(e.section(i), path, e.section_history(quiet, i), own, reach);
+    const double index = i;
+    begin_quiet(Vector3(path.deformation[path.steps]), name_after(now.path, &index, 1), reach, own);
+  }
+}
+
 DisplacementBeams::Basic DisplacementBeams::release(int element, Vector5& deformation, const Vector5& load,
                                                     const double* committed, double* trial) const {
   const Element& e = element_at(element);
@@ -84,6 +207,7 @@ DisplacementBeams::Basic DisplacementBeams::release(int element, Vector5& deform
 void DisplacementBeams::respond_basic(int element, const Vector6& v, double part, double, const double* committed,
                                       double* trial, Vector6& force, Matrix6* tangent) const {
   const Element& e = element_at(element);
+  const Virgin& virgin = virgin_[static_cast<std::size_t>(element)];
   Vector5 load = Vector5::Zero(), deformation = v.head<5>();
   if (!e.load.empty()) load = part * clamped_forces(e.load, e.frame.length).head<5>();
   Basic basic;
@@ -94,7 +218,18 @@ void DisplacementBeams::respond_basic(int element, const Vector6& v, double part
     }
     basic = release(element, deformation, load, committed, trial);
     found = deformation;
+  } else if (virgin.screened && note_of(committed).quiet != 0) {
+    if (stay_quiet(element, deformation, committed, trial)) {
+      basic.force.noalias() = virgin.tangent * deformation;
+      basic.force += virgin.force;
+      if (tangent) basic.tangent = virgin.tangent;
+    } else {
+      std::vector<double> scratch;
+      basic = integrate(e, deformation, with_sections(element, committed, scratch), trial, tangent != nullptr);
+    }
+    basic.force += load;
   } else {
+    if (virgin.screened) note_of(trial).quiet = 0;
     basic = integrate(e, deformation, committed, trial, tangent != nullptr);
     basic.force += load;
   }
@@ -112,9 +247,11 @@ std::vector<SectionResult> DisplacementBeams::basic_sections(int element, const 
   for (int i = 0; i < 5; ++i) {
     if (e.releases.basic[static_cast<std::size_t>(i)]) deformation[i] = history[i];
   }
+  std::vector<double> scratch;
+  const double* const own = with_sections(element, history, scratch);
   std::vector<SectionResult> results;
   for (int i = 0; i < e.points(); ++i) {
-    results.push_back(section_result(e, i, strain_interpolation(e.position(i), e.frame.length)(deformation), history));
+    results.push_back(section_result(e, i, strain_interpolation(e.position(i), e.frame.length)(deformation), own));
   }
   return results;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "elements/fiber_beam.hpp"
+#include "elements/quiet_note.hpp"
 
 namespace nsframe {
 
@@ -37,21 +38,42 @@ struct StrainInterpolation {
   }
 };
 
+// Without releases and laws of torsion, and with sections that can be screened, a member is quiet as long as all its sections are
+// (theory.md, 176): it then answers with its virgin tangent, its note counts, and of the sections' histories only the quiet ones of their
+// blocks, which are brought up to date when the note is full. Once a fiber leaves the line, each section is on its own.
 class DisplacementBeams : public FiberBeams {
  public:
   using FiberBeams::FiberBeams;
   std::string_view kind() const override { return "displacement_beam"; }
+  int quiet_fibers(int element, const double* history) const override;
 
  protected:
+  void initialize_basic(int element, double* history) const override;
+  void start_basic(int element, const double* committed, double* trial) const override;
+  void prepare(const Element& element) override;
+  const double* with_sections(int element, const double* history, std::vector<double>& scratch) const override;
   void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
                      double* trial, Vector6& force, Matrix6* tangent) const override;
   std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
                                             const double* history) const override;
-  // With releases: the basic deformations as found last, those of the released ends in particular.
-  int head_size(const FiberMember& member) const override { return member.releases.any() ? 5 : 0; }
+  // With releases: the basic deformations as found last, those of the released ends in particular. Else the member's note.
+  int head_size(const FiberMember& member) const override;
   double torsion_stiffness(const FiberMember& member) const override;
 
  private:
+  using Note = QuietNote<5>;
+  // What a quiet member needs, in one piece.
+  struct Virgin {
+    bool screened = false;  // can be quiet
+    double length = 0, largest_y = 0, largest_z = 0;  // of the fibers of all sections [m]
+    Vector5 force = Vector5::Zero();  // basic
+    Matrix5 tangent = Matrix5::Zero();
+  };
+  bool quiet(int element, const double* history) const;
+  // Brings the quiet history of a member to `deformation`; false when a fiber leaves the line there.
+  bool stay_quiet(int element, const Vector5& deformation, const double* committed, double* trial) const;
+  // Histories of the sections, each quiet on its own, from that of a quiet member.
+  void hand_over(int element, const double* quiet, double* history) const;
   struct Basic {
     Vector5 force = Vector5::Zero();
     Matrix5 tangent = Matrix5::Zero();
@@ -66,6 +88,8 @@ class DisplacementBeams : public FiberBeams {
                     double& stiffness);
   // Finds the deformations at released ends that leave no force there, from a first guess in `deformation`.
   Basic release(int element, Vector5& deformation, const Vector5& load, const double* committed, double* trial) const;
+
+  std::vector<Virgin> virgin_;
 };
 
 }  // namespace nsframe

@@ -92,6 +92,9 @@ class ElementGroup {
   virtual void respond(int element, const Vector12& displacement, const double* committed, double* trial,
                        Vector12& force, Matrix12* tangent) const = 0;
 
+  // Asks for what respond() will read of these histories at first, before their turn comes.
+  virtual void prefetch(int element, const double* committed, const double* trial) const { (void)element; (void)committed; (void)trial; }
+
   // True when forces depend on the rate of deformation: respond() is then the element at rest, and this what the motion of
   // a time step adds. To be called after respond(); writes its part of `trial`. Force (12) at the theta point of the step
   // that leads from the committed state to `displacement`, and its derivative (12x12) by that [N, N m].

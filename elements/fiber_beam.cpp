@@ -10,13 +10,16 @@ void FiberBeams::add(const ElementNodes& nodes, std::string id, FiberMember memb
   Element e{std::move(member)};
   e.torsion = e.releases.basic[5] ? 0 : torsion_stiffness(e);
   for (const auto& section : e.sections) e.twists = e.twists || (section->added[2] && !e.releases.basic[5]);
-  int size = head_size(e);
+  const int own = own_begin(!e.load.empty());
+  int end = own + head_size(e);
   for (const auto& section : e.sections) {
-    e.section_begin.push_back(size);
-    size += section->history_size;
+    const int begin = aligned_size(end);
+    e.section_begin.push_back(begin - own);
+    end = begin + section->history_size;
   }
-  Members::add(nodes, std::move(id), e.frame, size, !e.load.empty());
+  Members::add(nodes, std::move(id), e.frame, aligned_size(end) - own, !e.load.empty());
   elements_.push_back(std::move(e));
+  prepare(elements_.back());
 }
 
 void FiberBeams::initialize_basic(int element, double* history) const {
@@ -41,11 +44,21 @@ int FiberBeams::fibers(int element) const {
 
 int FiberBeams::quiet_fibers(int element, const double* history) const {
   const Element& e = element_at(element);
+  std::vector<double> scratch;
+  const double* const own = with_sections(element, basic_history(element, history), scratch);
   int count = 0;
   for (int point = 0; point < e.points(); ++point) {
-    if (is_quiet(e.section_history(basic_history(element, history), point))) count += e.section(point).fibers;
+    if (is_quiet(e.section_history(own, point))) count += e.section(point).fibers;
   }
   return count;
+}
+
+void FiberBeams::prefetch(int element, const double* committed, const double* trial) const {
+  const double *const from = basic_history(element, committed), *const to = basic_history(element, trial);
+  __builtin_prefetch(from);
+  __builtin_prefetch(from + aligned_doubles);
+  __builtin_prefetch(to, 1);
+  __builtin_prefetch(to + aligned_doubles, 1);
 }
 
 void FiberBeams::with_torsion(const Element& e, const Vector5& basic_force, const Matrix5& basic_tangent, double twist,
@@ -88,7 +101,8 @@ std::vector<FiberState> FiberBeams::fiber_states(int element, const Vector12& di
   const Element& e = element_at(element);
   std::vector<FiberState> states;
   const std::vector<SectionResult> results = sections(element, displacement, history);
-  const double* const own = basic_history(element, history);
+  std::vector<double> scratch;
+  const double* const own = with_sections(element, basic_history(element, history), scratch);
   for (int point = 0; point < e.points(); ++point) {
     const Vector3& deformation = results[static_cast<std::size_t>(point)].deformation;
     const auto at_point = nsframe::fiber_states(e.section(point), deformation, e.section_history(own, point));

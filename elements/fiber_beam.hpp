@@ -24,7 +24,7 @@ struct FiberMember {
   Releases releases = {};
 };
 
-// A member's own history is: head_size() doubles of the kind, those of the sections.
+// A member's own history is: head_size() doubles of the kind, then those of the sections, each beginning at a line of cache.
 class FiberBeams : public Members {
  public:
   explicit FiberBeams(Geometry geometry) : Members(beam_geometry(geometry)) {}
@@ -36,6 +36,7 @@ class FiberBeams : public Members {
   std::vector<FiberState> fiber_states(int element, const Vector12& displacement, const double* history) const override;
   int fibers(int element) const;
   int quiet_fibers(int element, const double* history) const override;
+  void prefetch(int element, const double* committed, const double* trial) const override;
 
  protected:
   struct Element : FiberMember {
@@ -53,6 +54,13 @@ class FiberBeams : public Members {
   };
   void initialize_basic(int element, double* history) const override;
   void start_basic(int element, const double* committed, double* trial) const override;
+  // Called for every element added.
+  virtual void prepare(const Element& element) { (void)element; }
+  // The own history of an element with its sections' histories, from one that may keep less; `scratch` may hold it.
+  virtual const double* with_sections(int element, const double* history, std::vector<double>& scratch) const {
+    (void)element; (void)scratch;
+    return history;
+  }
   // Doubles of its own that an element keeps before the histories of its sections.
   virtual int head_size(const FiberMember& member) const = 0;
   virtual double torsion_stiffness(const FiberMember& member) const = 0;
@@ -60,7 +68,7 @@ class FiberBeams : public Members {
   // Beside axial force and bending, torsion.
   static void with_torsion(const Element& element, const Vector5& basic_force, const Matrix5& basic_tangent, double twist,
                            Vector6& force, Matrix6* tangent);
-  // Section result at a point from its deformation; `history`, the member's own, as committed.
+  // Section result at a point from its deformation; `history`, with_sections(), as committed.
   SectionResult section_result(const Element& element, int point, const Vector3& deformation, const double* history) const;
 
  private:

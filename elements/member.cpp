@@ -7,7 +7,7 @@ namespace nsframe {
 void Members::add(const ElementNodes& nodes, std::string id, const BeamFrame& frame, int history_size, bool loaded) {
   ElementGroup::add(nodes, std::move(id));
   frames_.push_back(frame);
-  history_begin_.push_back(history_begin_.back() + geometry_.history_size() + (loaded && !linear() ? 1 : 0) + history_size);
+  history_begin_.push_back(history_begin_.back() + own_begin(loaded) + history_size);
 }
 
 void Members::initialize_history(int element, double* history) const {

@@ -48,6 +48,9 @@ class Members : public ElementGroup {
     return history + own_begin(element);
   }
 
+  // Where the member's own part begins in the history of an element.
+  int own_begin(bool loaded) const { return geometry_.history_size() + (loaded && !linear() ? 1 : 0); }
+
   // A beam with an outline, or a straight bar without.
   ElementShape member_shape(int element, const SectionOutline* outline) const;
   const MemberGeometry& geometry() const { return geometry_; }
@@ -55,7 +58,7 @@ class Members : public ElementGroup {
  private:
   // A linear member carries its whole load always.
   bool has_factor(int element) const { return !linear() && load(element) && !load(element)->empty(); }
-  int own_begin(int element) const { return geometry_.history_size() + (has_factor(element) ? 1 : 0); }
+  int own_begin(int element) const { return own_begin(has_factor(element)); }
 
   const MemberGeometry& geometry_;
   std::vector<BeamFrame> frames_;

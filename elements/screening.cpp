@@ -1,9 +1,7 @@
 #include "elements/screening.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 
 namespace nsframe {
 
@@ -17,19 +15,9 @@ const QuietHead& head_of(const double* history) { return *reinterpret_cast<const
 
 QuietPath noted_path(const QuietHead& head) {
   QuietPath path;
-  path.steps = static_cast<int>(head.pending);
-  std::copy_n(head.deformation[0], 3 * (path.steps + 1), path.deformation[0]);
+  path.steps = head.pending();
+  std::copy_n(head.noted[0], 3 * (path.steps + 1), path.deformation[0]);
   return path;
-}
-
-// Blocks' histories follow from those before and the path: so does their stamp. 52 bits, exact in a double, never 0.
-double stamp_after(double stamp, const QuietPath& path) {
-  auto hash = std::bit_cast<std::uint64_t>(stamp);
-  for (int i = 0; i < 3 * (path.steps + 1); ++i) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(path.deformation[i / 3][i % 3])) * 0x9e3779b97f4a7c15u;
-    hash ^= hash >> 32;
-  }
-  return static_cast<double>(1 + (hash >> 12));
 }
 
 // An empty struct has the size of a char.
@@ -52,20 +40,6 @@ void open_block(const Law& law, const FiberSection& section, const FiberBlock& b
   }
 }
 
-// What the blocks keep while they are quiet.
-void copy_quiet(const FiberSection& section, const double* from, double* to) {
-  for (const FiberBlock& block : section.blocks) {
-    std::visit(
-        [&](const auto& law) {
-          using Law = std::decay_t<decltype(law)>;
-          if constexpr (Screened<Law>) {
-            std::copy_n(from + block.history_begin, quiet_components<Law> * static_cast<std::size_t>(block.count), to + block.history_begin);
-          }
-        },
-        block.law);
-  }
-}
-
 }  // namespace
 
 bool can_be_quiet(const FiberSection& section) {
@@ -79,6 +53,23 @@ double quiet_limit(const UniaxialLaw& law, double error) {
         return 0.0;
       },
       law);
+}
+
+void copy_quiet(const FiberSection& section, const double* from, double* to) {
+  for (const FiberBlock& block : section.blocks) {
+    std::visit(
+        [&](const auto& law) {
+          using Law = std::decay_t<decltype(law)>;
+          if constexpr (Screened<Law>) {
+            std::copy_n(from + block.history_begin, quiet_components<Law> * static_cast<std::size_t>(block.count), to + block.history_begin);
+          }
+        },
+        block.law);
+  }
+}
+
+void begin_quiet(const Vector3& deformation, double name, double reach, double* history) {
+  begin_note(head_of(history), name, deformation.data(), reach);
 }
 
 void start_quiet(const FiberSection& section, double* history) {
@@ -106,29 +97,18 @@ void open_history(const FiberSection& section, const double* quiet, double* hist
 bool stay_quiet(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial) {
   const QuietHead& now = head_of(committed);
   QuietHead& next = head_of(trial);
-  const int noted = static_cast<int>(now.pending);
-  const double* const last = now.deformation[noted];
-  const double reach = now.reach - (std::abs(deformation[0] - last[0]) + section.largest_y * std::abs(deformation[1] - last[1]) +
-                                    section.largest_z * std::abs(deformation[2] - last[2]));
-  if (reach > 0 && noted < pending_deformations) {
-    if (next.quiet == 0 || next.stamp != now.stamp) copy_quiet(section, committed, trial);
-    std::copy_n(committed, 4 + 3 * (noted + 1), trial);
-    next.pending = noted + 1;
-    next.reach = reach;
-    std::copy_n(deformation.data(), 3, next.deformation[noted + 1]);
+  const double reach = now.reach - (std::abs(deformation[0] - now.last[0]) + section.largest_y * std::abs(deformation[1] - now.last[1]) +
+                                    section.largest_z * std::abs(deformation[2] - now.last[2]));
+  if (reach > 0 && now.pending() < pending_deformations) {
+    note(now, next, deformation.data(), reach, [&] { copy_quiet(section, committed, trial); });
     return true;
   }
   QuietPath path = noted_path(now);
   std::copy_n(deformation.data(), 3, path.deformation[++path.steps]);
-  const double stamp = stamp_after(now.stamp, path);
   double left = 0;
   next.quiet = 0;
   if (!follow_path(section, path, committed, trial, left)) return false;
-  next.quiet = 1;
-  next.stamp = stamp;
-  next.pending = 0;
-  next.reach = left;
-  std::copy_n(deformation.data(), 3, next.deformation[0]);
+  begin_note(next, name_after(now.path, deformation.data(), 3), deformation.data(), left);
   return true;
 }
 

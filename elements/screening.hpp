@@ -12,21 +12,14 @@
 #pragma once
 
 #include "elements/fiber_section.hpp"
+#include "elements/quiet_note.hpp"
 
 namespace nsframe {
 
-inline constexpr int pending_deformations = 8;  // noted before the fibers are brought up to date
-
 // The first doubles of a section's history.
-struct QuietHead {
-  double quiet;    // 1, or 0: then the rest is stale
-  double stamp;    // names what the blocks keep, by what made it: two histories with one stamp keep the same bits
-  double pending;  // deformations noted since
-  double reach;    // what the strains may still move, summed up, with no fiber leaving the line [-]
-  double deformation[pending_deformations + 1][3];  // that of the blocks' histories, then those noted
-};
+using QuietHead = QuietNote<3>;
 
-inline constexpr int section_head = sizeof(QuietHead) / sizeof(double);
+inline constexpr int section_head = aligned_size(sizeof(QuietHead) / sizeof(double));
 
 inline bool is_quiet(const double* history) { return history[0] != 0; }
 
@@ -49,6 +42,12 @@ void open_history(const FiberSection& section, const double* quiet, double* hist
 // Brings the quiet history of a section to `deformation`; false when a fiber leaves the line there (`trial` then holds
 // no history). `trial` may be any history of this section, or zeros.
 bool stay_quiet(const FiberSection& section, const Vector3& deformation, const double* committed, double* trial);
+
+// Makes `history`, whose blocks were brought up to `deformation`, that of a quiet section; `name` tells by what (QuietNote).
+void begin_quiet(const Vector3& deformation, double name, double reach, double* history);
+
+// Copies what the blocks keep while the section is quiet.
+void copy_quiet(const FiberSection& section, const double* from, double* to);
 
 // Deformations a section went through, from that of its blocks' histories on.
 struct QuietPath {

@@ -244,7 +244,7 @@ void ModelBuilder::add_slabs(const StructureDescription& structure) {
 void ModelBuilder::lay_out_histories() {
   model_.history_begin.assign(1, 0);
   for (const auto& group : model_.groups) {
-    model_.history_begin.push_back(model_.history_begin.back() + group->history_begin(group->size()));
+    model_.history_begin.push_back(model_.history_begin.back() + aligned_size(group->history_begin(group->size())));
   }
 }
 

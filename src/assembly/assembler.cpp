@@ -10,6 +10,7 @@ namespace nsframe {
 
 namespace {
 
+constexpr std::size_t prefetched = 2;     // elements ahead of the one at work
 constexpr int parallel_elements = 4;      // below this, threads cost more than they save
 
 Vector12 gather(const ElementGroup& group, int element, const VectorX& full) {
@@ -80,6 +81,7 @@ Assembler::Assembler(const Model& model, int threads) : model_(model), threads_(
   }
   std::copy(linear_values_.begin(), linear_values_.end(), tangent_.valuePtr());
   linear_operator_ = BlockOperator(tangent_, blocks_, dense_block_limit);
+  linear_operator_.set_threads(threads_for(threads_, size));
   forces_.resize(nonlinear_.size());
   tangents_.resize(nonlinear_.size());
 }
@@ -192,6 +194,10 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
   for (int i = 0; i < count; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const Placed& placed = nonlinear_[at];
+    if (at + prefetched < nonlinear_.size()) {
+      const Placed& later = nonlinear_[at + prefetched];
+      later.group->prefetch(later.element, committed.data() + later.history_begin, trial.data() + later.history_begin);
+    }
     try {
       const Vector12 u = gather(*placed.group, placed.element, full_displacement_);
       placed.group->respond(placed.element, u, committed.data() + placed.history_begin,

@@ -18,6 +18,7 @@ class Assembler {
   bool linear() const { return nonlinear_.empty(); }
   bool symmetric() const { return symmetric_; }
   const std::vector<BlockRange>& blocks() const { return blocks_; }
+  int threads() const { return threads_; }
   long fibers() const { return fibers_; }
   int linear_elements() const { return static_cast<int>(linear_.size()); }
   // Fibers in quiet sections (screening.hpp).

@@ -6,6 +6,14 @@
 
 namespace nsframe {
 
+namespace {
+
+constexpr Eigen::Index parallel_rows = 1000;  // below this, threads cost more than they save
+
+}  // namespace
+
+int threads_for(int threads, Eigen::Index rows) { return rows < parallel_rows ? 1 : threads; }
+
 SparseMatrix extract_block(const SparseMatrix& matrix, const BlockRange& range) {
   return matrix.block(range.first, range.first, range.size(), range.size());
 }
@@ -37,23 +45,27 @@ void BlockOperator::add_dense(const BlockRange& range, const MatrixX& matrix) {
 }
 
 void BlockOperator::add(Block block) {
-  padded_.resize(std::max(padded_.size(), static_cast<std::size_t>(block.padded_rows)));
-  padded2_.resize(padded_.size());
+  block.padded.resize(static_cast<std::size_t>(block.padded_rows));
+  block.padded2.resize(block.padded.size());
   size_ = std::max(size_, block.range.last);
   blocks_.push_back(std::move(block));
 }
 
 void BlockOperator::multiply(const VectorX& x, VectorX& y) const {
   y.resize(x.size());
-  for (const Block& block : blocks_) {
+  const int count = static_cast<int>(blocks_.size());
+#pragma omp parallel for schedule(static, 1) num_threads(threads_) if (threads_ > 1)
+  for (int i = 0; i < count; ++i) {
+    const Block& block = blocks_[static_cast<std::size_t>(i)];
     const BlockRange& range = block.range;
     const double* const from = x.data() + range.first;
+    double* const to = block.padded.data();
     if (block.dense.empty()) {
-      block.sparse.multiply(from, padded_.data());
+      block.sparse.multiply(from, to);
     } else {
-      dense_multiply(block.dense.data(), block.padded_rows, range.size(), from, padded_.data());
+      dense_multiply(block.dense.data(), block.padded_rows, range.size(), from, to);
     }
-    std::copy_n(padded_.data(), range.size(), y.data() + range.first);
+    std::copy_n(to, range.size(), y.data() + range.first);
   }
 }
 
@@ -63,14 +75,15 @@ void BlockOperator::multiply(const VectorX& x, const VectorX& x2, VectorX& y, Ve
   for (const Block& block : blocks_) {
     const BlockRange& range = block.range;
     const double *const from = x.data() + range.first, *const from2 = x2.data() + range.first;
+    double *const to = block.padded.data(), *const to2 = block.padded2.data();
     if (block.dense.empty()) {
-      block.sparse.multiply(from, padded_.data());
-      block.sparse.multiply(from2, padded2_.data());
+      block.sparse.multiply(from, to);
+      block.sparse.multiply(from2, to2);
     } else {
-      dense_multiply(block.dense.data(), block.padded_rows, range.size(), from, from2, padded_.data(), padded2_.data());
+      dense_multiply(block.dense.data(), block.padded_rows, range.size(), from, from2, to, to2);
     }
-    std::copy_n(padded_.data(), range.size(), y.data() + range.first);
-    std::copy_n(padded2_.data(), range.size(), y2.data() + range.first);
+    std::copy_n(to, range.size(), y.data() + range.first);
+    std::copy_n(to2, range.size(), y2.data() + range.first);
   }
 }
 

@@ -28,20 +28,25 @@ class BlockOperator {
   // y = A x and y2 = A x2, for less than twice the time of one.
   void multiply(const VectorX& x, const VectorX& x2, VectorX& y, VectorX& y2) const;
   int size() const { return size_; }
+  // Of multiply(): a thread a block.
+  void set_threads(int threads) { threads_ = threads; }
 
  private:
   struct Block {
     BlockRange range;
     int padded_rows = 0;
-    std::vector<double> dense;  // column-major, padded_rows x size; empty when sparse
+    AlignedVector dense;  // column-major, padded_rows x size; empty when sparse
     ChunkedRows sparse;
+    mutable AlignedVector padded, padded2;  // results with the rows added
   };
   void add(Block block);
   void add_dense(const BlockRange& range, const MatrixX& matrix);
-  int size_ = 0;
+  int size_ = 0, threads_ = 1;
   std::vector<Block> blocks_;
-  mutable std::vector<double> padded_, padded2_;
 };
+
+// Threads for what is done block by block: one where there is too little to do.
+int threads_for(int threads, Eigen::Index rows);
 
 // The part of a block-diagonal matrix that belongs to one block.
 SparseMatrix extract_block(const SparseMatrix& matrix, const BlockRange& range);

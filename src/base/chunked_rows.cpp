@@ -47,10 +47,13 @@ class Gatherer {
 };
 
 // w = (1 + T)^-1 (S w - T w outside the chunk), chunk by chunk, for a matrix T without diagonal that is strictly triangular and a diagonal S.
-Chunks triangular_chunks(const SparseRows& triangle, const VectorX& scale) {
+// Chunks stand in the order of the solution: memory is read in one direction.
+Chunks triangular_chunks(const SparseRows& triangle, const VectorX& scale, bool backward) {
   Chunks chunks;
   Gatherer rows(triangle.cols());
-  for (Eigen::Index first = 0; first < triangle.rows(); first += chunk_rows) {
+  const Eigen::Index last = (triangle.rows() - 1) / chunk_rows;
+  for (Eigen::Index i = 0; i <= last; ++i) {
+    const Eigen::Index first = chunk_rows * (backward ? last - i : i);
     rows.gather(triangle, first);
     const auto inside = [&](int column) { return column >= first && column < first + chunk_rows; };
     Square own = Square::Identity();
@@ -95,8 +98,8 @@ ChunkedFactor::ChunkedFactor(const Eigen::SimplicialLDLT<SparseMatrix>& factor) 
   SparseMatrix lower = factor.matrixL();
   lower.prune([](Eigen::Index row, Eigen::Index column, double) { return row > column; });
   const SparseRows by_rows = lower, transposed = lower.transpose();
-  forward_ = triangular_chunks(by_rows, VectorX::Ones(n));
-  backward_ = triangular_chunks(transposed, factor.vectorD().cwiseInverse());
+  forward_ = triangular_chunks(by_rows, VectorX::Ones(n), false);
+  backward_ = triangular_chunks(transposed, factor.vectorD().cwiseInverse(), true);
   const auto& permutation = factor.permutationP().indices();  // empty: none
   place_.resize(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) place_[static_cast<std::size_t>(i)] = permutation.size() > 0 ? permutation[i] : i;

@@ -13,7 +13,7 @@ inline constexpr int chunk_rows = 4;
 // Chunks of a matrix, one after the other; columns and values of chunk i stand from begin[i] on, four values a column.
 struct Chunks {
   std::vector<int> begin{0}, columns;
-  std::vector<double> values;
+  AlignedVector values;
 
   int count() const { return static_cast<int>(begin.size()) - 1; }
   int padded_rows() const { return chunk_rows * count(); }
@@ -44,7 +44,7 @@ class ChunkedFactor {
   // Every chunk gives its rows from those solved before and its own right-hand sides: the triangle within it is inverted.
   Chunks forward_, backward_;
   std::vector<int> place_;  // of unknown i among the permuted ones
-  mutable std::vector<double> work_;
+  mutable AlignedVector work_;
 };
 
 }  // namespace nsframe

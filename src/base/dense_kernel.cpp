@@ -82,9 +82,8 @@ void chunks_target(int chunks, bool backward, const int* begin, const int* colum
   const hn::CappedTag<double, 4> tag;
   constexpr int width = static_cast<int>(hn::MaxLanes(hn::CappedTag<double, 4>())), vectors = 4 / width, ways = 4;
   for (int i = 0; i < chunks; ++i) {
-    const int chunk = backward ? chunks - 1 - i : i;
-    int j = begin[chunk];
-    const int end = begin[chunk + 1];
+    int j = begin[i];
+    const int end = begin[i + 1];
     hn::Vec<decltype(tag)> sum[ways][vectors];
     for (auto& way : sum) {
       for (auto& part : way) part = hn::Zero(tag);
@@ -101,7 +100,7 @@ void chunks_target(int chunks, bool backward, const int* begin, const int* colum
       for (int k = 0; k < vectors; ++k) sum[0][k] = hn::MulAdd(hn::LoadU(tag, values + 4L * j + k * width), factor, sum[0][k]);
     }
     for (int k = 0; k < vectors; ++k) {
-      hn::StoreU(hn::Add(hn::Add(sum[0][k], sum[1][k]), hn::Add(sum[2][k], sum[3][k])), tag, y + 4L * chunk + k * width);
+      hn::StoreU(hn::Add(hn::Add(sum[0][k], sum[1][k]), hn::Add(sum[2][k], sum[3][k])), tag, y + 4L * (backward ? chunks - 1 - i : i) + k * width);
     }
   }
 }

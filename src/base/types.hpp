@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
 #include <limits>
+#include <vector>
 
 namespace nsframe {
 
@@ -18,6 +19,14 @@ using Matrix12 = Eigen::Matrix<double, 12, 12>;
 using MatrixX = Eigen::MatrixXd;
 using SparseMatrix = Eigen::SparseMatrix<double>;                       // by columns
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;        // by rows
+
+// Doubles of a line of cache and of the widest SIMD register: what begins at a multiple of these is read in one piece. All memory of
+// Eigen's and of AlignedVector begins there (EIGEN_MAX_ALIGN_BYTES).
+inline constexpr int aligned_doubles = 8;
+using AlignedVector = std::vector<double, Eigen::aligned_allocator<double>>;
+
+// The next multiple of aligned_doubles.
+constexpr int aligned_size(int doubles) { return (doubles + aligned_doubles - 1) / aligned_doubles * aligned_doubles; }
 
 inline constexpr double pi = 3.14159265358979323846;
 inline constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();

@@ -18,7 +18,7 @@ constexpr int pairs_before_solution = 24;
 }  // namespace
 
 IterationMatrix::IterationMatrix(const System& system, IterationMatrixOptions options)
-    : symmetric_(system.assembler.symmetric()), linear_(system.linear()) {
+    : symmetric_(system.assembler.symmetric()), linear_(system.linear()), threads_(threads_for(system.assembler.threads(), system.mass().rows())) {
   for (const BlockRange& range : system.assembler.blocks()) {
     if (range.size() == 0) continue;
     Block& block = blocks_.emplace_back();
@@ -35,6 +35,7 @@ void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness
   stiffness_.assign(stiffness.valuePtr(), stiffness.valuePtr() + stiffness.nonZeros());
   damping_.assign(system.damping.tangent.valuePtr(), system.damping.tangent.valuePtr() + system.damping.tangent.nonZeros());
   responses_.assign(static_cast<std::size_t>(system.contacts().size()), VectorX());
+  rates_ = responses_;
   tangent_responses_.assign(static_cast<std::size_t>(system.contacts().tangents.rows()), VectorX());
   std::size_t structure = 0;
   for (Block& block : blocks_) {
@@ -158,29 +159,33 @@ void IterationMatrix::solve(const VectorX& rhs, VectorX& x) {
   const bool fast = solves_ >= solves_before_speed_up;
   x.resize(rhs.size());
   if (fast) inverse_.multiply(rhs, x);
-  for (const Block& block : blocks_) {
-    const auto part = rhs.segment(block.range.first, block.range.size());
-    auto result = x.segment(block.range.first, block.range.size());
-    if (block.dense) {
-      if (fast) continue;
-      if (block.use_lu) {
-        result = block.lu.solve(part);
-      } else {
-        result = block.cholesky.solve(part);
-      }
-      continue;
-    }
-    if (block.chunked) {
-      part_.resize(part.size());
-      block.chunked->solve(part.data(), part_.data());
+  const int count = static_cast<int>(blocks_.size());
+#pragma omp parallel for schedule(static, 1) num_threads(threads_) if (threads_ > 1)
+  for (int i = 0; i < count; ++i) solve_block(blocks_[static_cast<std::size_t>(i)], fast, rhs, x);
+}
+
+void IterationMatrix::solve_block(Block& block, bool fast, const VectorX& rhs, VectorX& x) const {
+  if (block.dense && fast) return;
+  const auto part = rhs.segment(block.range.first, block.range.size());
+  auto result = x.segment(block.range.first, block.range.size());
+  if (block.dense) {
+    if (block.use_lu) {
+      result = block.lu.solve(part);
     } else {
-      MatrixX solution;
-      solve_sparse(block, part, solution);
-      part_ = solution.col(0);
+      result = block.cholesky.solve(part);
     }
-    add_modal_damping(block, part_);
-    result = part_;
+    return;
   }
+  if (block.chunked) {
+    block.solution.resize(part.size());
+    block.chunked->solve(part.data(), block.solution.data());
+  } else {
+    MatrixX solution;
+    solve_sparse(block, part, solution);
+    block.solution = solution.col(0);
+  }
+  add_modal_damping(block, block.solution);
+  result = block.solution;
 }
 
 const VectorX& IterationMatrix::response(const Contacts& contacts, int pair) {
@@ -189,6 +194,12 @@ const VectorX& IterationMatrix::response(const Contacts& contacts, int pair) {
     const VectorX row = contacts.jacobian.row(pair).transpose();
     solve(row, cached);
   }
+  return cached;
+}
+
+const VectorX& IterationMatrix::rates_by(const Contacts& contacts, int pair) {
+  VectorX& cached = rates_[static_cast<std::size_t>(pair)];
+  if (cached.size() == 0) cached = contacts.jacobian * response(contacts, pair);
   return cached;
 }
 

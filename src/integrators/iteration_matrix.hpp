@@ -37,6 +37,8 @@ class IterationMatrix {
   void solve(const VectorX& rhs, VectorX& x);
   // J^-1 H' of one contact pair (computed once a factorization).
   const VectorX& response(const Contacts& contacts, int pair);
+  // H J^-1 H' of it: the rates of all pairs by its unit impulse.
+  const VectorX& rates_by(const Contacts& contacts, int pair);
   // J^-1 T' of a row of Contacts::tangents.
   const VectorX& tangent_response(const Contacts& contacts, int row);
   // x = J^-1 H' p, p on some pairs: from their responses, or by one solution where that costs less.
@@ -57,9 +59,11 @@ class IterationMatrix {
     MatrixX woodbury_response;              // J0^-1 U
     Eigen::PartialPivLU<MatrixX> woodbury;  // I/a + U' J0^-1 U
     const MatrixX* modal = nullptr;
+    VectorX solution;
   };
   // Brings the factors in the form that solves fastest.
   void speed_up();
+  void solve_block(Block& block, bool fast, const VectorX& rhs, VectorX& x) const;
   void factor_dense(Block& block, MatrixX J) const;
   void factor_sparse(Block& block, const SparseMatrix& J, double a) const;
   static void solve_sparse(const Block& block, const MatrixX& rhs, MatrixX& x);
@@ -73,9 +77,9 @@ class IterationMatrix {
   std::vector<Block> blocks_;
   BlockOperator inverse_;                 // of the dense blocks
   bool all_dense_ = true;
-  VectorX part_;                          // of a solution
+  int threads_;
   int solves_ = 0;                        // since the last factorization
-  std::vector<VectorX> responses_, tangent_responses_;
+  std::vector<VectorX> responses_, tangent_responses_, rates_;
 };
 
 }  // namespace nsframe

@@ -92,13 +92,11 @@ void MoreauJean::solve_contact(const System& system, State& trial, StepResult& r
   if (contacts.frictional()) add_friction_response(contacts, -1, trial.velocity);
   const auto count = static_cast<Eigen::Index>(active_.size());
   ContactProblem problem{MatrixX(count, count), VectorX(count)};
-  for (Eigen::Index a = 0; a < count; ++a) {
-    const int pair = active_[static_cast<std::size_t>(a)];
-    const auto row = contacts.jacobian.row(pair);
-    problem.rhs[a] = row.dot(trial.velocity);
-    for (Eigen::Index b = 0; b < count; ++b) {
-      problem.delassus(a, b) = row.dot(matrix_.response(contacts, active_[static_cast<std::size_t>(b)]));
-    }
+  for (Eigen::Index b = 0; b < count; ++b) {
+    const int pair = active_[static_cast<std::size_t>(b)];
+    const VectorX& rates = matrix_.rates_by(contacts, pair);
+    problem.rhs[b] = contacts.jacobian.row(pair).dot(trial.velocity);
+    for (Eigen::Index a = 0; a < count; ++a) problem.delassus(a, b) = rates[active_[static_cast<std::size_t>(a)]];
   }
   problem.rhs -= target_rates(system, problem.delassus);
   const ContactOptions contact_options{options_.contact_tolerance, options_.max_contact_sweeps};
@@ -165,17 +163,19 @@ class MoreauJean::Step : public NonlinearStep {
     scheme_.forces_.restart();
     system_.assembler.start_step(committed_.history, trial_.history);
     trial_.velocity = committed_.velocity;
-    predicted_ = !system_.linear() && has_factors();
+    predicted_ = has_factors();
     if (predicted_) {
       scheme_.predict(system_, committed_, h_, trial_, result_);
-    } else if (!system_.linear()) {
+    } else {
       trial_.velocity += h_ * committed_.acceleration;
     }
     evaluate(system_.damping.follows_tangent());
-    if (predicted_) error_of_guess_ = residual() / (scheme_.options_.theta * h_);
+    if (predicted_ && !system_.linear()) error_of_guess_ = residual() / (scheme_.options_.theta * h_);
   }
   const VectorX& residual() const override { return scheme_.in_contact() ? scheme_.residual_ : scheme_.free_residual_; }
   bool guess_may_stand() const override { return predicted_; }
+  // The prediction of a linear step is its solution, as an iteration would find it from the committed velocity with one product by K more.
+  bool solved_at_once() const { return predicted_ && system_.linear(); }
   double error() const override { return result_.residual / scheme_.options_.newton_tolerance; }
   void factor(Tangent which) override {
     if (which == Tangent::current && !system_.assembler.tangent_is_current()) evaluate(true);
@@ -203,6 +203,7 @@ class MoreauJean::Step : public NonlinearStep {
 
   // What the step shows of P beyond the factored stiffness, for the guess of the next one.
   void keep_departure() {
+    if (system_.linear()) return;
     Extrapolation& departure = scheme_.departure_;
     if (factored_ || !predicted_) return departure.clear();
     if (!departure.empty()) error_of_guess_ += departure.next();
@@ -239,6 +240,7 @@ void MoreauJean::step(System& system, const State& committed, State& trial, doub
   if (!ladder_.climb(problem, options_.max_newton, result.attempts)) fail(system, committed, result);
   problem.keep_departure();
   for (const Attempt& attempt : result.attempts) result.newton_iterations += attempt.iterations;
+  if (problem.solved_at_once()) ++result.newton_iterations;
   result.guess_stood = result.newton_iterations == 0;
   trial.time = committed.time + h;
   if (active_.empty()) {

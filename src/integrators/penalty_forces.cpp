@@ -138,15 +138,14 @@ ContactSolution PenaltyForces::solve(const Contacts& contacts, IterationMatrix& 
   VectorX free(own);
   for (Eigen::Index a = 0; a < own; ++a) {
     const int pair = problem_.pairs[static_cast<std::size_t>(a)].pair;
-    const auto row = contacts.jacobian.row(pair);
-    free[a] = row.dot(velocity);
+    free[a] = contacts.jacobian.row(pair).dot(velocity);
     for (Eigen::Index b = 0; b < own; ++b) {
-      problem_.delassus(a, b) = row.dot(matrix.response(contacts, problem_.pairs[static_cast<std::size_t>(b)].pair));
+      problem_.delassus(a, b) = matrix.rates_by(contacts, problem_.pairs[static_cast<std::size_t>(b)].pair)[pair];
     }
     for (Eigen::Index b = 0; b < count; ++b) {
       const int other = others[static_cast<std::size_t>(b)];
-      of_others(a, b) = row.dot(matrix.response(contacts, other));
-      on_others(b, a) = contacts.jacobian.row(other).dot(matrix.response(contacts, pair));
+      of_others(a, b) = matrix.rates_by(contacts, other)[pair];
+      on_others(b, a) = matrix.rates_by(contacts, pair)[other];
     }
   }
   problem_.free = free;

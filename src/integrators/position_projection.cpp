@@ -17,10 +17,8 @@ VectorX shift_to_closed(const Contacts& contacts, IterationMatrix& matrix, const
   }
   if (count == 0 || problem.rhs.minCoeff() >= 0) return {};
   for (Eigen::Index a = 0; a < count; ++a) {
-    const auto row = contacts.jacobian.row(pairs[static_cast<std::size_t>(a)].pair);
-    for (Eigen::Index b = 0; b < count; ++b) {
-      problem.delassus(a, b) = row.dot(matrix.response(contacts, pairs[static_cast<std::size_t>(b)].pair));
-    }
+    const VectorX& rates = matrix.rates_by(contacts, pairs[static_cast<std::size_t>(a)].pair);
+    for (Eigen::Index b = 0; b < count; ++b) problem.delassus(b, a) = rates[pairs[static_cast<std::size_t>(b)].pair];
   }
   const ContactSolution solution = solve_active_set(problem, {});
   if (!solution.converged) {

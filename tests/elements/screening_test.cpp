@@ -195,8 +195,8 @@ TEST_CASE("fibers of a quiet section that are visited now and then are those tha
         }
         eager.swap(next);
         auto& head = *reinterpret_cast<QuietHead*>(eager.data());
-        head = {1, 0, 0, 0, {{deformation[0], deformation[1], deformation[2]}}};
-        deferred += reinterpret_cast<const QuietHead*>(buffers[committed].data())->pending > 0 ? 1 : 0;
+        head = {1, 0, 0, 0, 0, {deformation[0], deformation[1], deformation[2]}, {{deformation[0], deformation[1], deformation[2]}}};
+        deferred += reinterpret_cast<const QuietHead*>(buffers[committed].data())->pending() > 0 ? 1 : 0;
         open_history(section, eager.data(), a.data());
         open_history(section, buffers[committed].data(), b.data());
         REQUIRE(a == b);
