@@ -90,6 +90,7 @@ void DisplacementBeams::prepare(const Element& e) {
   virgin.screened = can_be_quiet(e);
   if (!virgin.screened) return;
   virgin.length = e.frame.length;
+  virgin.torsion = e.torsion;
   for (int i = 0; i < e.points(); ++i) {
     const FiberSection& section = e.section(i);
     const StrainInterpolation b = strain_interpolation(e.position(i), e.frame.length);
@@ -117,7 +118,7 @@ void DisplacementBeams::initialize_basic(int element, double* history) const {
 }
 
 void DisplacementBeams::start_basic(int element, const double* committed, double* trial) const {
-  if (element_at(element).releases.any()) FiberBeams::start_basic(element, committed, trial);
+  if (!virgin_[static_cast<std::size_t>(element)].screened) FiberBeams::start_basic(element, committed, trial);
 }
 
 const double* DisplacementBeams::with_sections(int element, const double* history, std::vector<double>& scratch) const {
@@ -135,10 +136,10 @@ bool DisplacementBeams::stay_quiet(int element, const Vector5& v, const double* 
   const Vector5 change = v - Eigen::Map<const Vector5>(now.last);
   const double moved = std::abs(change[0]) / virgin.length + virgin.largest_y * largest_curvature(change[1], change[2], virgin.length) +
                        virgin.largest_z * largest_curvature(change[3], change[4], virgin.length);
-  const Element& e = element_at(element);
   // a section's own head is stale while the member is quiet, and says so
   if (now.reach > moved && now.pending() < pending_deformations) {
     note(now, next, v.data(), now.reach - moved, [&] {
+      const Element& e = element_at(element);
       for (int i = 0; i < e.points(); ++i) {
         copy_quiet(e.section(i), e.section_history(committed, i), e.section_history(trial, i));
         *e.section_history(trial, i) = 0;
@@ -146,6 +147,7 @@ bool DisplacementBeams::stay_quiet(int element, const Vector5& v, const double* 
     });
     return true;
   }
+  const Element& e = element_at(element);
   next.quiet = 0;
   double least = std::numeric_limits<double>::infinity();
   for (int i = 0; i < e.points(); ++i) {
@@ -206,9 +208,21 @@ DisplacementBeams::Basic DisplacementBeams::release(int element, Vector5& deform
 
 void DisplacementBeams::respond_basic(int element, const Vector6& v, double part, double, const double* committed,
                                       double* trial, Vector6& force, Matrix6* tangent) const {
-  const Element& e = element_at(element);
   const Virgin& virgin = virgin_[static_cast<std::size_t>(element)];
   Vector5 load = Vector5::Zero(), deformation = v.head<5>();
+  const bool was_quiet = quiet(element, committed);
+  if (was_quiet && stay_quiet(element, deformation, committed, trial)) {
+    force.head<5>().noalias() = virgin.tangent * deformation;
+    force.head<5>() += virgin.force;
+    if (loaded(element)) force.head<5>() += part * clamped_forces(*this->load(element), virgin.length).head<5>();
+    force[5] = virgin.torsion * v[5];
+    if (!tangent) return;
+    tangent->setZero();
+    tangent->topLeftCorner<5, 5>() = virgin.tangent;
+    (*tangent)(5, 5) = virgin.torsion;
+    return;
+  }
+  const Element& e = element_at(element);
   if (!e.load.empty()) load = part * clamped_forces(e.load, e.frame.length).head<5>();
   Basic basic;
   if (e.releases.any()) {
@@ -218,19 +232,10 @@ void DisplacementBeams::respond_basic(int element, const Vector6& v, double part
     }
     basic = release(element, deformation, load, committed, trial);
     found = deformation;
-  } else if (virgin.screened && note_of(committed).quiet != 0) {
-    if (stay_quiet(element, deformation, committed, trial)) {
-      basic.force.noalias() = virgin.tangent * deformation;
-      basic.force += virgin.force;
-      if (tangent) basic.tangent = virgin.tangent;
-    } else {
-      std::vector<double> scratch;
-      basic = integrate(e, deformation, with_sections(element, committed, scratch), trial, tangent != nullptr);
-    }
-    basic.force += load;
   } else {
     if (virgin.screened) note_of(trial).quiet = 0;
-    basic = integrate(e, deformation, committed, trial, tangent != nullptr);
+    std::vector<double> scratch;
+    basic = integrate(e, deformation, was_quiet ? with_sections(element, committed, scratch) : committed, trial, tangent != nullptr);
     basic.force += load;
   }
   with_torsion(e, basic.force, basic.tangent, v[5], force, tangent);

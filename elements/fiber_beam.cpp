@@ -10,7 +10,7 @@ void FiberBeams::add(const ElementNodes& nodes, std::string id, FiberMember memb
   Element e{std::move(member)};
   e.torsion = e.releases.basic[5] ? 0 : torsion_stiffness(e);
   for (const auto& section : e.sections) e.twists = e.twists || (section->added[2] && !e.releases.basic[5]);
-  const int own = own_begin(!e.load.empty());
+  const int own = own_offset(!e.load.empty());
   int end = own + head_size(e);
   for (const auto& section : e.sections) {
     const int begin = aligned_size(end);

@@ -7,7 +7,12 @@ namespace nsframe {
 void Members::add(const ElementNodes& nodes, std::string id, const BeamFrame& frame, int history_size, bool loaded) {
   ElementGroup::add(nodes, std::move(id));
   frames_.push_back(frame);
-  history_begin_.push_back(history_begin_.back() + own_begin(loaded) + history_size);
+  Place& place = places_.back();
+  place.own = own_offset(loaded);
+  place.loaded = loaded;
+  place.factor = loaded && !linear();
+  const int end = place.begin + place.own + history_size;
+  places_.push_back({end});
 }
 
 void Members::initialize_history(int element, double* history) const {
@@ -33,8 +38,7 @@ void Members::respond(int element, const Vector12& displacement, const double* c
   respond_basic(element, deformation, part, geometry_.rounding(displacement), committed + own, trial + own, basic_force,
                 tangent ? &basic_tangent : nullptr);
   geometry_.to_global(frame, displacement, committed, basic_force, basic_tangent, force, tangent);
-  const MemberLoad* const acting = load(element);
-  if (acting && !acting->empty()) geometry_.add_load(frame, *acting, part, displacement, committed, force, tangent);
+  if (loaded(element)) geometry_.add_load(frame, *load(element), part, displacement, committed, force, tangent);
 }
 
 Matrix12 Members::geometric_change(int element, const Vector12& displacement, const Vector12& step,
@@ -42,7 +46,6 @@ Matrix12 Members::geometric_change(int element, const Vector12& displacement, co
   const BeamFrame& frame = this->frame(element);
   const int own = own_begin(element);
   const double part = load_part(element, trial);
-  const MemberLoad* const acting = load(element);
   Vector6 basic_force;
   Matrix6 basic_tangent;
   const Vector6 deformation = geometry_.deformation(frame, displacement, committed, trial);
@@ -52,7 +55,7 @@ Matrix12 Members::geometric_change(int element, const Vector12& displacement, co
     Vector12 force;
     Matrix12 tangent;
     geometry_.to_global(frame, u, committed, basic_force + basic_tangent * change, basic_tangent, force, &tangent);
-    if (acting && !acting->empty()) geometry_.add_load(frame, *acting, part, u, committed, force, &tangent);
+    if (loaded(element)) geometry_.add_load(frame, *load(element), part, u, committed, force, &tangent);
     return tangent;
   };
   return 0.5 * (tangent_at(displacement + step) - tangent_at(displacement - step));

@@ -11,7 +11,7 @@ class Members : public ElementGroup {
  public:
   bool linear() const override { return geometry_.linear() && linear_basic(); }
   bool symmetric() const override { return geometry_.symmetric(); }
-  int history_begin(int element) const override { return history_begin_[static_cast<std::size_t>(element)]; }
+  int history_begin(int element) const override { return places_[static_cast<std::size_t>(element)].begin; }
   double* load_factor(int element, double* history) const final {
     return has_factor(element) ? history + geometry_.history_size() : nullptr;
   }
@@ -49,20 +49,27 @@ class Members : public ElementGroup {
   }
 
   // Where the member's own part begins in the history of an element.
-  int own_begin(bool loaded) const { return geometry_.history_size() + (loaded && !linear() ? 1 : 0); }
+  int own_offset(bool loaded) const { return geometry_.history_size() + (loaded && !linear() ? 1 : 0); }
+
+  // load() is not empty.
+  bool loaded(int element) const { return places_[static_cast<std::size_t>(element)].loaded; }
 
   // A beam with an outline, or a straight bar without.
   ElementShape member_shape(int element, const SectionOutline* outline) const;
   const MemberGeometry& geometry() const { return geometry_; }
 
  private:
-  // A linear member carries its whole load always.
-  bool has_factor(int element) const { return !linear() && load(element) && !load(element)->empty(); }
-  int own_begin(int element) const { return own_begin(has_factor(element)); }
+  // Of a member in its group's history, and the end of the last one.
+  struct Place {
+    int begin = 0, own = 0;  // `own`: the member's own part, from `begin`
+    bool loaded = false, factor = false;  // a linear member carries its whole load always
+  };
+  bool has_factor(int element) const { return places_[static_cast<std::size_t>(element)].factor; }
+  int own_begin(int element) const { return places_[static_cast<std::size_t>(element)].own; }
 
   const MemberGeometry& geometry_;
   std::vector<BeamFrame> frames_;
-  std::vector<int> history_begin_{0};
+  std::vector<Place> places_{Place{}};
 };
 
 }  // namespace nsframe

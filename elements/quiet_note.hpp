@@ -9,7 +9,7 @@
 
 namespace nsframe {
 
-inline constexpr int pending_deformations = 8;  // noted before the fibers are brought up to date
+inline constexpr int pending_deformations = 16;  // noted before the fibers are brought up to date
 
 // All that an evaluation reads of it stands at its head. `stamp` and `path` name what the fibers' histories are and what was noted, by
 // what made them: equal names, equal bits.
