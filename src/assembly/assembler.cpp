@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 
+#include "base/parallel.hpp"
 #include "elements/fiber_beam.hpp"
 #include "elements/member_load.hpp"
 
@@ -83,6 +84,7 @@ Assembler::Assembler(const Model& model, int threads) : model_(model), threads_(
   linear_operator_ = BlockOperator(tangent_, blocks_, dense_block_limit);
   linear_operator_.set_threads(threads_for(threads_, size));
   forces_.resize(nonlinear_.size());
+  failures_.resize(nonlinear_.size());
   tangents_.resize(nonlinear_.size());
 }
 
@@ -189,9 +191,7 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
   tangent_is_current_ = with_tangent;
   full_displacement_.noalias() = model_.dofs.transformation * displacement;
   const int count = static_cast<int>(nonlinear_.size());
-  std::vector<std::exception_ptr> failures(static_cast<std::size_t>(count));
-#pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1 && count >= parallel_elements)
-  for (int i = 0; i < count; ++i) {
+  parallel_for(count, count < parallel_elements ? 1 : threads_, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
     const Placed& placed = nonlinear_[at];
     if (at + prefetched < nonlinear_.size()) {
@@ -203,11 +203,14 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
       placed.group->respond(placed.element, u, committed.data() + placed.history_begin,
                             trial.data() + placed.history_begin, forces_[at], with_tangent ? &tangents_[at] : nullptr);
     } catch (...) {
-      failures[at] = std::current_exception();
+      failures_[at] = std::current_exception();
     }
-  }
-  for (const std::exception_ptr& failure : failures) {
-    if (failure) std::rethrow_exception(failure);
+  });
+  const auto failed = std::find_if(failures_.begin(), failures_.end(), [](const std::exception_ptr& failure) { return failure != nullptr; });
+  if (failed != failures_.end()) {
+    const std::exception_ptr first = *failed;
+    std::fill(failures_.begin(), failures_.end(), nullptr);
+    std::rethrow_exception(first);
   }
   if (with_tangent) std::copy(linear_values_.begin(), linear_values_.end(), tangent_.valuePtr());
   full_force_.setZero(model_.dofs.full);

@@ -2,6 +2,7 @@
 // evaluated in parallel and summed in a fixed order, so results do not depend on the number of threads.
 #pragma once
 
+#include <exception>
 #include <vector>
 
 #include "base/block_operator.hpp"
@@ -88,6 +89,7 @@ class Assembler {
   std::vector<double> linear_values_;
   BlockOperator linear_operator_;
   std::vector<Vector12> forces_;
+  std::vector<std::exception_ptr> failures_;
   std::vector<Matrix12, Eigen::aligned_allocator<Matrix12>> tangents_;
   VectorX full_displacement_, full_force_;
 };

@@ -3,16 +3,9 @@
 #include <algorithm>
 
 #include "base/dense_kernel.hpp"
+#include "base/parallel.hpp"
 
 namespace nsframe {
-
-namespace {
-
-constexpr Eigen::Index parallel_rows = 1000;  // below this, threads cost more than they save
-
-}  // namespace
-
-int threads_for(int threads, Eigen::Index rows) { return rows < parallel_rows ? 1 : threads; }
 
 SparseMatrix extract_block(const SparseMatrix& matrix, const BlockRange& range) {
   return matrix.block(range.first, range.first, range.size(), range.size());
@@ -53,9 +46,7 @@ void BlockOperator::add(Block block) {
 
 void BlockOperator::multiply(const VectorX& x, VectorX& y) const {
   y.resize(x.size());
-  const int count = static_cast<int>(blocks_.size());
-#pragma omp parallel for schedule(static, 1) num_threads(threads_) if (threads_ > 1)
-  for (int i = 0; i < count; ++i) {
+  parallel_for(static_cast<int>(blocks_.size()), threads_, [&](int i) {
     const Block& block = blocks_[static_cast<std::size_t>(i)];
     const BlockRange& range = block.range;
     const double* const from = x.data() + range.first;
@@ -66,7 +57,7 @@ void BlockOperator::multiply(const VectorX& x, VectorX& y) const {
       dense_multiply(block.dense.data(), block.padded_rows, range.size(), from, to);
     }
     std::copy_n(to, range.size(), y.data() + range.first);
-  }
+  });
 }
 
 void BlockOperator::multiply(const VectorX& x, const VectorX& x2, VectorX& y, VectorX& y2) const {

@@ -45,9 +45,6 @@ class BlockOperator {
   std::vector<Block> blocks_;
 };
 
-// Threads for what is done block by block: one where there is too little to do.
-int threads_for(int threads, Eigen::Index rows);
-
 // The part of a block-diagonal matrix that belongs to one block.
 SparseMatrix extract_block(const SparseMatrix& matrix, const BlockRange& range);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
+#include "base/parallel.hpp"
 
 namespace nsframe {
 
@@ -159,9 +160,8 @@ void IterationMatrix::solve(const VectorX& rhs, VectorX& x) {
   const bool fast = solves_ >= solves_before_speed_up;
   x.resize(rhs.size());
   if (fast) inverse_.multiply(rhs, x);
-  const int count = static_cast<int>(blocks_.size());
-#pragma omp parallel for schedule(static, 1) num_threads(threads_) if (threads_ > 1)
-  for (int i = 0; i < count; ++i) solve_block(blocks_[static_cast<std::size_t>(i)], fast, rhs, x);
+  if (fast && all_dense_) return;
+  parallel_for(static_cast<int>(blocks_.size()), threads_, [&](int i) { solve_block(blocks_[static_cast<std::size_t>(i)], fast, rhs, x); });
 }
 
 void IterationMatrix::solve_block(Block& block, bool fast, const VectorX& rhs, VectorX& x) const {
