@@ -150,6 +150,8 @@ struct ModeNumerics {
   double frequency_effective = 0;      // [Hz]
   double participation = 0;            // effective mass over mass, the largest of x, y and z [-]
   Vector3 shares = Vector3::Zero();    // the same along x, y and z
+  double complex_frequency = 0;        // |lambda| / 2 pi of its complex mode, where damping ties modes together and the scheme knows it; else 0 [Hz]
+  double complex_damping = 0;          // -Re lambda / |lambda| of that; 1 where it creeps [-]
 };
 
 struct Peak {

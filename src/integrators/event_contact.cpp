@@ -71,7 +71,7 @@ VectorX EventFlow::solve_forces(const System& system, const std::vector<int>& pa
 }
 
 VectorX EventFlow::accelerations() const {
-  VectorX modal = state_.f0 - 2 * modes_.decay.cwiseProduct(state_.y) - modes_.square.cwiseProduct(state_.x);
+  VectorX modal = propagator_.accelerations(state_);
   if (!closed_pairs(true).empty()) modal += modes_.gap.transpose() * compliant_forces(contact_.constant + modes_.gap * state_.x);
   return modes_.gap * modal;
 }

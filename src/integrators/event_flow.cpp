@@ -34,6 +34,10 @@ void EventFlow::start(const System& system, const State& committed) {
   modes_.projection.multiply(padded, modal);
   state_.y = VectorX::Zero(modes_.padded);
   state_.y.head(modes_.dofs) = modal.head(modes_.dofs);
+  for (const DampingCoupling& coupling : modes_.couplings) {
+    for (Eigen::Index i = 0; i < coupling.rest.size(); ++i) state_.x[coupling.places[static_cast<std::size_t>(coupling.square.size() + i)]] -= coupling.rest[i];
+  }
+  propagator_.coupled().clear_rates(state_);
   state_.f0 = state_.f1 = VectorX::Zero(modes_.padded);
   set_load(system, committed.time, 0);
   contact_.closed.clear();
@@ -135,9 +139,11 @@ void EventFlow::travel(const System& system, double time, double h, bool startin
 }
 
 void EventFlow::write(VectorX& displacement, VectorX& velocity) {
+  propagator_.coupled().set_rates(state_);
   modes_.shape.multiply(state_.x, state_.y, full_, full_rate_);
   displacement = full_.head(modes_.dofs) + modes_.rest;
   velocity = full_rate_.head(modes_.dofs);
+  propagator_.coupled().clear_rates(state_);
   if (closed_pairs(true).empty()) return;
   displacement += modes_.massless_response * compliant_forces(contact_.constant + modes_.gap * state_.x);
   velocity += modes_.massless_response * compliant_forces(modes_.gap * state_.y);
@@ -173,6 +179,7 @@ void EventFlow::add_energy(double time, double s, StepResult& result) {
     springs = 0.5 * (after.dot(modes_.compliance * after) - before.dot(modes_.compliance * before));
     rest = modes_.rest_gap.dot(after - before);
   }
+  rest += propagator_.coupled().rest_work(state_.x, end.x);
   double against = 0;
   if (force_.value.size() > 0) {
     against = propagator_.energy(force_.value + (time - force_.time) * force_.slope, force_.slope, state_, end, s).work +
@@ -275,6 +282,12 @@ std::vector<std::string> EventFlow::describe() const {
   std::vector<std::string> lines;
   lines.push_back(fmt::format("natural modes: {}{}", modes_.dofs - modes_.massless,
                               modes_.massless > 0 ? fmt::format(", {} DOFs without mass condensed", modes_.massless) : ""));
+  for (const DampingCoupling& coupling : modes_.couplings) {
+    const auto first_order = coupling.rate.size();
+    lines.push_back(fmt::format("damping ties {} modes of structure '{}' together{}: complex modes, condition {:.3g}", coupling.square.size(), coupling.structure,
+                                first_order > 0 ? fmt::format(", with {} motion{} of first order (dashpots without mass)", first_order, first_order == 1 ? "" : "s") : "",
+                                coupling.form.condition));
+  }
   const auto springs = std::count(modes_.compliant.begin(), modes_.compliant.end(), true);
   if (springs > 0) lines.push_back(fmt::format("{} contact pair{} reached through DOFs without mass: springs in series, without impulse", springs, springs == 1 ? "" : "s"));
   return lines;

@@ -9,11 +9,15 @@ namespace nsframe {
 
 class Exact : public Scheme {
  public:
-  // Throws InputError for nonlinear elements and for damping that couples modes.
+  // Throws InputError for nonlinear elements, and as exact_modes() does.
   Exact(const AnalysisOptions& options, const System& system);
   std::string name() const override { return "exact"; }
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, w}; }
+  ModeResponse complex_mode(int mode) const override {
+    const auto [ratio, frequency] = flow_.modes().complex_mode(mode);
+    return {ratio, frequency};
+  }
   long factorizations() const override { return 0; }
   bool shorter_steps_help() const override { return false; }
   void save(Snapshot& snapshot) const override;

@@ -7,6 +7,7 @@
 
 #include "base/dense_kernel.hpp"
 #include "base/errors.hpp"
+#include "integrators/exact_damping.hpp"
 
 namespace nsframe {
 
@@ -14,13 +15,6 @@ namespace {
 
 constexpr int long_double_limit = 200;      // DOFs of a structure up to which its modes are found in long double
 constexpr double slow = 1;                  // [rad/s]: below, f / w^2 would lose digits
-constexpr double coupling_tolerance = 1e-8;  // of damping between two modes, relative to their own
-
-// Modes of one structure: columns of shape (n x modes); basis of what has no mass, with its stiffness factored into `flexibility`.
-struct BlockModes {
-  VectorX square;
-  MatrixX shape, massless, flexibility;
-};
 
 template <class Real>
 BlockModes solve_block(const MatrixX& stiffness, const MatrixX& mass, bool may_move_freely) {
@@ -74,62 +68,6 @@ BlockModes solve_block(const MatrixX& stiffness, const MatrixX& mass, bool may_m
   return modes;
 }
 
-[[noreturn]] void refuse(const Structure& structure, const std::string& why) {
-  Diagnostics diagnostics;
-  diagnostics.error(structure.at, fmt::format("schemes 'exact' and 'exponential' move structure '{}' in its natural modes, but {}; use scheme = \"moreau-jean\"",
-                                              structure.name, why));
-  diagnostics.throw_if_any();
-  throw InputError(why);
-}
-
-// Turns modes of (nearly) one frequency so that the damping does not couple them.
-void separate_equal_modes(BlockModes& modes, const MatrixX& damping) {
-  const Eigen::Index count = modes.square.size();
-  for (Eigen::Index first = 0; first < count;) {
-    Eigen::Index last = first + 1;
-    while (last < count && modes.square[last] - modes.square[first] <= 1e-9 * modes.square[last]) ++last;
-    if (last - first > 1) {
-      const MatrixX shapes = modes.shape.middleCols(first, last - first);
-      const Eigen::SelfAdjointEigenSolver<MatrixX> solver(shapes.transpose() * damping * shapes);
-      modes.shape.middleCols(first, last - first) = shapes * solver.eigenvectors();
-    }
-    first = last;
-  }
-}
-
-// Modal damping factors 2 a; refuses damping that couples modes, or acts on DOFs without mass where that would matter.
-VectorX modal_damping(const System& system, const Structure& structure, BlockModes& modes, const MatrixX& C, const MatrixX& H) {
-  separate_equal_modes(modes, C);
-  const MatrixX D = modes.shape.transpose() * C * modes.shape;
-  const VectorX own = D.diagonal().cwiseMax(0.0);
-  for (Eigen::Index i = 0; i < D.rows(); ++i) {
-    for (Eigen::Index j = 0; j < i; ++j) {
-      const double floor = 1e-13 * std::sqrt(std::max(modes.square[i], modes.square[j]));
-      if (std::abs(D(i, j)) > coupling_tolerance * std::sqrt(own[i] * own[j]) + floor) {
-        refuse(structure, fmt::format("its damping couples modes {} and {} (dashpots do that)", j + 1, i + 1));
-      }
-    }
-  }
-  const MatrixX& N = modes.massless;
-  for (Eigen::Index i = 0; i < N.cols(); ++i) {
-    const VectorX force = C * N.col(i);
-    const double rate = N.col(i).dot(force);
-    if (!(rate > 0)) continue;
-    const VectorX coupling = modes.shape.transpose() * force;
-    for (Eigen::Index k = 0; k < coupling.size(); ++k) {
-      if (std::abs(coupling[k]) > coupling_tolerance * std::sqrt(own[k] * rate) + 1e-300) {
-        refuse(structure, "its damping couples them with DOFs that have no mass");
-      }
-    }
-    const bool touched = H.rows() > 0 && (H * N.col(i)).cwiseAbs().maxCoeff() > 0;
-    const bool pulled = !system.model.gravity_statically_first &&
-                        std::abs(N.col(i).dot(system.static_load.segment(structure.first_dof, N.rows()))) > 0;
-    if (touched) refuse(structure, "contact meets DOFs that have damping and no mass: give them mass, or choose modal damping");
-    if (pulled) refuse(structure, "loads act suddenly on DOFs that have damping and no mass");
-  }
-  return own;
-}
-
 // What contact pairs see of the modes.
 void find_contacts(const System& system, const std::vector<BlockModes>& blocks, ExactModes& modes) {
   const Contacts& contacts = system.contacts();
@@ -171,6 +109,17 @@ void find_contacts(const System& system, const std::vector<BlockModes>& blocks, 
       if (modes.gap(c, k) * modes.gap(c, k) > 1e-18 * modes.delassus(c, c)) modes.highest = std::max(modes.highest, std::sqrt(modes.square[k]) + 2 * modes.decay[k]);
     }
   }
+  for (const DampingCoupling& coupling : modes.couplings) {
+    const auto count = coupling.square.size();
+    const std::vector<int> places(coupling.places.begin(), coupling.places.begin() + count);
+    const MatrixX G = modes.gap(Eigen::all, places), from = G * coupling.form.basis.topRows(count), to = coupling.form.inverse.rightCols(count) * G.transpose();
+    for (const DiagonalBlock& block : coupling.form.blocks) {
+      for (int c = 0; c < pairs; ++c) {  // its share of the pair's 1 / mass
+        const double share = block.magnitude * from.row(c).segment(block.first, block.size).norm() * to.col(c).segment(block.first, block.size).norm();
+        if (share > 1e-18 * modes.delassus(c, c)) modes.highest = std::max(modes.highest, block.magnitude);
+      }
+    }
+  }
   modes.rest_gap = contacts.jacobian * modes.rest;
   modes.gap_offset = contacts.initial_gap + modes.rest_gap;
 }
@@ -186,6 +135,14 @@ std::string nonlinear_element(const System& system) {
     return fmt::format("element '{}' ({})", group->id(0), kind);
   }
   return "a load";
+}
+
+std::pair<double, double> ExactModes::complex_mode(int place) const {
+  for (const DampingCoupling& coupling : couplings) {
+    const auto end = coupling.places.begin() + coupling.square.size(), found = std::find(coupling.places.begin(), end, place);
+    if (found != end) return {coupling.complex_damping[found - coupling.places.begin()], coupling.complex_frequency[found - coupling.places.begin()]};
+  }
+  return {0, 0};
 }
 
 ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
@@ -213,19 +170,33 @@ ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
                                                    : solve_block<double>(K, M, structure.may_move_freely);
     MatrixX C(extract_block(system.damping.viscous, range));
     C += system.damping.modal[b] * system.damping.modal[b].transpose();
-    const VectorX damping = modal_damping(system, structure, block, C, H.middleCols(range.first, size));
-    const auto count = static_cast<int>(block.square.size());
+    BlockDamping damping = block_damping(system, structure, block, K, C, H.middleCols(range.first, size));
+    const auto count = static_cast<int>(block.square.size()), first_order = static_cast<int>(damping.follow.cols());
     modes.massless += size - count;
+    std::vector<bool> coupled(static_cast<std::size_t>(count + first_order), false);
+    for (DampingCoupling& coupling : damping.couplings) {
+      modes.undamped = false;
+      for (int& place : coupling.places) {
+        coupled[static_cast<std::size_t>(place)] = true;
+        place += range.first;
+      }
+      modes.couplings.push_back(std::move(coupling));
+    }
     MatrixX shape = MatrixX::Zero(size, size), projection = MatrixX::Zero(size, size);
     shape.leftCols(count) = block.shape;
     projection.topRows(count) = block.shape.transpose() * M;
+    shape.middleCols(count, first_order) = damping.follow;
+    projection.middleRows(count, first_order) = damping.follow_projection;
+    for (int j = 0; j < first_order; ++j) modes.flexibility[range.first + count + j] = 0;
     for (int i = 0; i < count; ++i) {
       const int k = range.first + i;
-      const double square = block.square[i], a = 0.5 * damping[i];
+      const double square = block.square[i], a = 0.5 * damping.decay[i];
       modes.square[k] = square;
       modes.decay[k] = a;
       if (a > 0) modes.undamped = false;
-      if (square < slow * slow || square - a * a < 1e-6 * square) {
+      if (coupled[static_cast<std::size_t>(i)]) {
+        modes.flexibility[k] = 0;
+      } else if (square < slow * slow || square - a * a < 1e-6 * square) {
         modes.special.push_back(k);
         modes.flexibility[k] = 0;
       } else {

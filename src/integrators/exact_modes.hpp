@@ -7,8 +7,26 @@
 #include <vector>
 
 #include "assembly/system.hpp"
+#include "modal/block_diagonal.hpp"
 
 namespace nsframe {
+
+// Modes of one structure that damping ties together, and the motions z of first order of what has dashpots and no mass (theory.md, 335-337):
+// x'' + D x' + w^2 x = Phi' (f + H' lambda) + E z, z' = -E' x' - T z.
+struct DampingCoupling {
+  std::string structure;
+  std::vector<int> places;            // in arrays by mode: of the n modes, then of the m motions of first order
+  VectorX square;                     // w^2 [1/s2]
+  MatrixX damping, coupling;          // D (n x n) [1/s], E (n x m)
+  VectorX rate, rest;                 // T [1/s]; z of the rest under static loads
+  BlockDiagonal form;                 // of the matrix of (x, z, y)
+  VectorX complex_frequency, complex_damping;  // |lambda| [rad/s] and -Re lambda / |lambda| of the n modes' complex counterparts
+};
+
+// Displacements, velocities, loads and their slopes of all modes; of motions of first order x = z, and y only in EventFlow::write().
+struct ModalState {
+  VectorX x, y, f0, f1;  // [m sqrt(kg)], [m/s sqrt(kg)], [N/sqrt(kg)], [N/s/sqrt(kg)]
+};
 
 // Arrays by mode have `padded` entries. The modes of a structure stand in the places of its free DOFs; places without a mode
 // (massless DOFs) and the padding are modes that nothing moves.
@@ -20,6 +38,7 @@ struct ExactModes {
   std::vector<int> special;           // rigid-body, very slow, critically damped or overdamped: not by the formulas of oscillators
   double highest = 0;                 // largest w + 2 a of the modes that contact can feel [1/s]
   bool undamped = true;
+  std::vector<DampingCoupling> couplings;  // at their places decay = flexibility = 0: no oscillators of their own
   BlockOperator shape, projection, shape_transposed;  // Phi, Phi' M, Phi'
   BlockOperator massless_flexibility; // F
   MatrixX massless_basis;             // N: columns span the motions without mass
@@ -37,13 +56,16 @@ struct ExactModes {
   MatrixX velocity_jump;              // Phi Phi' H', free DOFs x pairs: of a unit impulse
   MatrixX massless_response;          // F H', free DOFs x pairs
 
+  // Damping ratio and circular frequency of a mode that damping ties to others; zeros for the others.
+  std::pair<double, double> complex_mode(int place) const;
   int pairs() const { return static_cast<int>(compliant.size()); }
 };
 
 // The first nonlinear element and its kind, as "element 'a' (spring)"; empty when there is none.
 std::string nonlinear_element(const System& system);
 
-// Modes under a symmetric `stiffness` (free DOFs). Throws InputError for damping that couples them, naming the structure.
+// Modes under a symmetric `stiffness` (free DOFs). Throws InputError, naming the structure, where contact meets DOFs that have dashpots and
+// no mass, and where damped modes are too nearly parallel to be told apart.
 ExactModes exact_modes(const System& system, const SparseMatrix& stiffness);
 
 }  // namespace nsframe

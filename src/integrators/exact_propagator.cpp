@@ -62,7 +62,12 @@ StepCoefficients step_coefficients(long double square, long double a, long doubl
   return c;
 }
 
-void Propagator::move(const ModalState& from, double s, ModalState& after) const {
+void Propagator::move(const ModalState& from, double s, ModalState& after) {
+  move_oscillators(from, s, after);
+  coupled_.at(s, after, false);
+}
+
+void Propagator::move_oscillators(const ModalState& from, double s, ModalState& after) const {
   const ExactModes& m = modes_;
   after.x.resize(m.padded);
   after.y.resize(m.padded);
@@ -114,8 +119,15 @@ void Propagator::step(const ModalState& from, double s, ModalState& after) {
   const StepArrays arrays{c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),  c[5].data(),
                           c[6].data(), c[7].data(), c[8].data(), c[9].data(), c[10].data(), c[11].data()};
   apply_step(modes_.padded, arrays, from.x.data(), from.y.data(), from.f0.data(), from.f1.data(), after.x.data(), after.y.data());
+  coupled_.at(s, after, true);
   after.f0 = from.f0 + s * from.f1;
   after.f1 = from.f1;
+}
+
+VectorX Propagator::accelerations(const ModalState& state) const {
+  VectorX modal = state.f0 - 2 * modes_.decay.cwiseProduct(state.y) - modes_.square.cwiseProduct(state.x);
+  coupled_.accelerations(state, modal);
+  return modal;
 }
 
 void Propagator::derivatives(const ModalState& state, Eigen::Matrix<double, Eigen::Dynamic, 7>& out) const {
@@ -127,9 +139,11 @@ void Propagator::derivatives(const ModalState& state, Eigen::Matrix<double, Eige
     if (n == 2) out.col(n) += state.f0;
     if (n == 3) out.col(n) += state.f1;
   }
+  coupled_.derivatives(state, out);
 }
 
-void Propagator::bound_fourth(const ModalState& state, VectorX& bound) const {
+void Propagator::bound_fourth(const ModalState& state, VectorX& pairs) {
+  VectorX& bound = mode_bound_;
   // u = x - x_p decays: |u| <= amplitude, and four derivatives multiply the amplitude by w^4
   const auto w2 = modes_.square.array(), a = modes_.decay.array();
   const auto flexibility = modes_.flexibility.array();
@@ -151,9 +165,14 @@ void Propagator::bound_fourth(const ModalState& state, VectorX& bound) const {
     const double second = two_a + w, third = two_a * second + square;
     bound[k] = (two_a * third + square * second) * most;
   }
+  for (const DampingCoupling& coupling : modes_.couplings) {
+    for (const int k : coupling.places) bound[k] = 0;
+  }
+  pairs.noalias() = modes_.gap_size * bound;
+  coupled_.add_fourth(pairs);
 }
 
-FlightEnergy Propagator::energy(const VectorX& f0, const VectorX& f1, const ModalState& from, const ModalState& to, double s) const {
+FlightEnergy Propagator::energy(const VectorX& f0, const VectorX& f1, const ModalState& from, const ModalState& to, double s) {
   const ExactModes& m = modes_;
   FlightEnergy energy = sum_energy(m.padded, s,
                                    {m.square.data(), m.decay.data(), m.flexibility.data(), from.x.data(), from.y.data(), from.f0.data(),
@@ -163,6 +182,16 @@ FlightEnergy Propagator::energy(const VectorX& f0, const VectorX& f1, const Moda
     if (f1[k] == 0) continue;
     const StepCoefficients c = step_coefficients(m.square[k], m.decay[k], s);
     energy.work -= f1[k] * static_cast<double>((c.B + 2 * m.decay[k] * c.L) * from.x[k] + c.L * from.y[k] + c.R * from.f0[k] + c.Q * from.f1[k]);
+  }
+  if (!coupled_.empty() && !f1.isZero(0)) {
+    integral_.resize(m.padded);
+    coupled_.integrate(s, integral_);
+    for (const DampingCoupling& coupling : m.couplings) {
+      for (Eigen::Index i = 0; i < coupling.square.size(); ++i) {
+        const int k = coupling.places[static_cast<std::size_t>(i)];
+        energy.work -= f1[k] * integral_[k];
+      }
+    }
   }
   return energy;
 }

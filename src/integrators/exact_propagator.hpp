@@ -4,15 +4,10 @@
 #include <array>
 #include <vector>
 
+#include "integrators/coupled_motion.hpp"
 #include "integrators/exact_kernel.hpp"
-#include "integrators/exact_modes.hpp"
 
 namespace nsframe {
-
-// Displacements, velocities, loads and their slopes of all modes.
-struct ModalState {
-  VectorX x, y, f0, f1;  // [m sqrt(kg)], [m/s sqrt(kg)], [N/sqrt(kg)], [N/s/sqrt(kg)]
-};
 
 // x+ = A x + B y + L f0 + R f1, y+ = -w^2 B x + (A - 2 a B) y + B f0 + L f1; B is the response to a unit impulse, L, R and Q
 // its first, second and third integrals.
@@ -24,22 +19,29 @@ StepCoefficients step_coefficients(long double square, long double a, long doubl
 
 class Propagator {
  public:
-  explicit Propagator(const ExactModes& modes) : modes_(modes) {}
+  explicit Propagator(const ExactModes& modes) : modes_(modes), coupled_(modes) {}
 
+  // All motions of move() and step(), and their bounds and energies, are from this state on.
+  void begin(const ModalState& from) { coupled_.begin(from); }
   // The state after any time s; the load has moved on. `after` may not be `from`.
-  void move(const ModalState& from, double s, ModalState& after) const;
+  void move(const ModalState& from, double s, ModalState& after);
+  // The same of modes that damping doesn't tie together; what it does to the others is for coupled().
+  void move_oscillators(const ModalState& from, double s, ModalState& after) const;
+  CoupledMotion& coupled() { return coupled_; }
   // The same by coefficients that are kept for further steps of that length. `s` is best of few values; these are found
   // to more digits than double has, so that no energy is lost or gained in millions of steps.
   void step(const ModalState& from, double s, ModalState& after);
 
   // Derivatives n = 0..6 of the modal displacements, by columns.
   void derivatives(const ModalState& state, Eigen::Matrix<double, Eigen::Dynamic, 7>& out) const;
-  // For every mode a bound on |d4 x / dt4| from now on, while the load keeps its slope.
-  void bound_fourth(const ModalState& state, VectorX& bound) const;
+  // Second derivatives under the state's load.
+  VectorX accelerations(const ModalState& state) const;
+  // For every pair a bound on |d4 g / dt4| from begin() on, while the load keeps its slope.
+  void bound_fourth(const ModalState& state, VectorX& bound);
 
   // Over a free motion of length s between two states: the work of a part f0 + f1 t of the loads, and the changes of 1/2 w^2 x^2 and
   // 1/2 y^2, summed [J].
-  FlightEnergy energy(const VectorX& f0, const VectorX& f1, const ModalState& from, const ModalState& to, double s) const;
+  FlightEnergy energy(const VectorX& f0, const VectorX& f1, const ModalState& from, const ModalState& to, double s);
 
  private:
   struct Step {
@@ -48,8 +50,10 @@ class Propagator {
   };
   const Step& find(double s);
   const ExactModes& modes_;
+  CoupledMotion coupled_;
   std::vector<Step> steps_;
   std::size_t next_ = 0;
+  VectorX mode_bound_, integral_;
 };
 
 }  // namespace nsframe

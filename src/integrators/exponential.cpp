@@ -17,6 +17,17 @@ constexpr double largest_rest = 1e-4;    // of the largest displacement, that ma
 constexpr double slow_following = 0.3;   // memory from which a tangent is worth its factorization
 constexpr double forgetting = 0.02;      // of what `memory_` lacks to 1, a step: it is measured again and again
 
+// 1 / w^2 of oscillators, also of those that damping ties together.
+VectorX static_flexibility(const ExactModes& modes) {
+  VectorX flexibility = modes.flexibility;
+  for (const DampingCoupling& coupling : modes.couplings) {
+    for (Eigen::Index i = 0; i < coupling.square.size(); ++i) {
+      if (coupling.square[i] > 1) flexibility[coupling.places[static_cast<std::size_t>(i)]] = 1 / coupling.square[i];
+    }
+  }
+  return flexibility;
+}
+
 SparseMatrix symmetric_part(const SparseMatrix& matrix) { return 0.5 * (matrix + SparseMatrix(matrix.transpose())); }
 
 const System& accepted(const System& system) {
@@ -39,13 +50,20 @@ Exponential::Exponential(const AnalysisOptions& options, const System& system)
                                  "mass, or use scheme = \"moreau-jean\"",
                                  system.contacts().pairs[static_cast<std::size_t>(c)].name));
   }
+  for (const DampingCoupling& coupling : modes.couplings) {
+    if (coupling.rate.size() == 0) continue;
+    throw InputError(fmt::format("error: scheme 'exponential' cannot take this scene: structure '{}' has dashpots at DOFs without mass; give them "
+                                 "mass, or use scheme = \"event-split\" or \"moreau-jean\"",
+                                 coupling.structure));
+  }
   padded_ = VectorX::Zero(modes.padded);
-  modes.shape.multiply(VectorX(modes.flexibility.cwiseProduct(modes.static_load)), padded_);
+  flexibility_ = static_flexibility(modes);
+  modes.shape.multiply(VectorX(flexibility_.cwiseProduct(modes.static_load)), padded_);
   scale_ = padded_.cwiseAbs().maxCoeff();
   for (std::size_t i = 0; i < system.model.motions.size(); ++i) {
     double largest = 0;
     for (const double a : system.model.motions[i].acceleration) largest = std::max(largest, std::abs(a));
-    modes.shape.multiply(VectorX(largest * modes.flexibility.cwiseProduct(modes.motion_load[i])), padded_);
+    modes.shape.multiply(VectorX(largest * flexibility_.cwiseProduct(modes.motion_load[i])), padded_);
     scale_ += padded_.cwiseAbs().maxCoeff();
   }
   find_steps(system);
@@ -116,7 +134,7 @@ void Exponential::start(System& system, const State& committed) {
   massless_rate_ = VectorX::Zero(now_.massless.size());
   level_ = least_level_;
   // the first peak, from rest position and velocity
-  modes.shape.multiply(VectorX(flow_.modal().y.cwiseProduct(modes.flexibility.cwiseSqrt())), padded_);
+  modes.shape.multiply(VectorX(flow_.modal().y.cwiseProduct(flexibility_.cwiseSqrt())), padded_);
   peak_ = std::max(committed.displacement.cwiseAbs().maxCoeff(), padded_.cwiseAbs().maxCoeff());
   padded_.setZero();
   memory_ = 1;

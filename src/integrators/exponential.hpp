@@ -12,12 +12,16 @@ inline constexpr double exponential_rest = 1e-8;   // of the largest displacemen
 
 class Exponential : public Scheme {
  public:
-  // Throws InputError for what it cannot take: rate-dependent elements, damping that follows the tangent or couples modes, contact
-  // at DOFs without mass.
+  // Throws InputError for what it cannot take: rate-dependent elements, damping that follows the tangent, contact or
+  // dashpots at DOFs without mass.
   Exponential(const AnalysisOptions& options, const System& system);
   std::string name() const override { return "exponential"; }
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, w}; }
+  ModeResponse complex_mode(int mode) const override {
+    const auto [ratio, frequency] = flow_.modes().complex_mode(mode);
+    return {ratio, frequency};
+  }
   long factorizations() const override { return 0; }
   void save(Snapshot& snapshot) const override;
   void restore(System& system, const Snapshot& snapshot) override;
@@ -46,6 +50,7 @@ class Exponential : public Scheme {
   int least_level_ = 0;                 // stable parts of dt: dt / 2^level
   int active_level_ = 0;                // parts that sample all modes, once something has yielded
   double unstable_ = 0;                 // frequency of the mode that wants least_level_ [rad/s]
+  VectorX flexibility_;                 // 1 / w^2 of oscillators [s2]
   VectorX mode_size_;                   // largest entry of every mode
   VectorX mode_share_;                  // of nonlinear elements in the stiffness of every mode
   double scale_ = 0;                    // displacement under static loads and peak ground accelerations, statically [m]

@@ -19,8 +19,7 @@ void Flight::bound(double length, bool disturbed) {
   if (disturbed || !bound_holds_ || !contact_->closed.empty()) {
     rounding_.resize(modes_.pairs());
     rate_rounding_.resize(modes_.pairs());
-    propagator_.bound_fourth(*state_, mode_bound_);
-    fourth_.noalias() = modes_.gap_size * mode_bound_;
+    propagator_.bound_fourth(*state_, fourth_);
     size_ = state_->x.cwiseAbs();
     rate_size_ = state_->y.cwiseAbs();
     multiply_gaps(modes_.padded, modes_.pairs(), modes_.gap_size.data(), size_.data(), rate_size_.data(), rounding_.data(), rate_rounding_.data());
@@ -161,6 +160,7 @@ FlightEvent Flight::find(const ModalState& state, const ContactState& contact, d
   state_ = &state;
   contact_ = &contact;
   have_derivatives_ = false;
+  propagator_.begin(state);
   const int pairs = modes_.pairs();
   FlightEvent event{length, FlightEvent::Kind::none, -1};
   if (pairs == 0) {

@@ -65,7 +65,7 @@ class Flight {
   ContactForces forces_;
   ModalState end_, probe_;
   Sample start_, finish_;
-  VectorX fourth_, tolerance_, rounding_, rate_rounding_, mode_bound_, size_, rate_size_;
+  VectorX fourth_, tolerance_, rounding_, rate_rounding_, size_, rate_size_;
   std::vector<bool> skip_;        // closed, or certain to stay open
   Eigen::Matrix<double, Eigen::Dynamic, 7> mode_derivatives_;
   bool have_derivatives_ = false;

@@ -51,6 +51,13 @@ class Scheme {
   };
   virtual ModeResponse mode_response(double w, double xi, double h) const = 0;
 
+  // Of the complex mode into which damping turns the undamped mode at place `mode` (first DOF of its structure + its number), in closed form;
+  // a ratio of 1 where it creeps, no frequency where damping ties it to no other or the scheme does not know.
+  virtual ModeResponse complex_mode(int mode) const {
+    (void)mode;
+    return {0, 0};
+  }
+
   virtual long factorizations() const = 0;
 
   // The highest circular frequency at which a struck point rings by itself, where the scheme steps through that [rad/s]; else 0.

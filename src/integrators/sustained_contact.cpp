@@ -85,7 +85,9 @@ SustainedContact::SustainedContact(const ExactModes& modes, Propagator& propagat
   }
   if (fastest > 0) length_ = std::min(length_, panel_angle / std::sqrt(fastest));
   const Gauss& g = gauss();
-  const MatrixX G = modes.gap;
+  MatrixX G = modes.gap;  // of single modes; `coupled` adds what the others do
+  for (const DampingCoupling& coupling : modes.couplings) G(Eigen::all, coupling.places).setZero();
+  const CoupledMotion& coupled = propagator.coupled();
   for (const double u : g.point) nodes_.push_back(u * length_);
   VectorX response(modes.padded), second(modes.padded);
   for (const double u : g.point) {
@@ -99,6 +101,9 @@ SustainedContact::SustainedContact(const ExactModes& modes, Propagator& propagat
       }
       displacement_.push_back(G * response.asDiagonal() * G.transpose());
       acceleration_.push_back(G * second.asDiagonal() * G.transpose());
+      if (coupled.empty()) continue;
+      displacement_.back() += coupled.displacement_response(s);
+      acceleration_.back() += coupled.acceleration_response(s);
     }
   }
   VectorX before = VectorX::Zero(modes.padded), now = VectorX::Ones(modes.padded);
@@ -107,6 +112,11 @@ SustainedContact::SustainedContact(const ExactModes& modes, Propagator& propagat
     const VectorX next = -2 * modes.decay.cwiseProduct(now) - modes.square.cwiseProduct(before);
     before = now;
     now = next;
+  }
+  if (!coupled.empty()) {
+    const std::array<MatrixX, 6> moments = coupled.moments();
+    for (std::size_t n = 0; n < moments.size(); ++n) moments_[n] += moments[n];
+    for (std::size_t n = 0; n < coupled_bound_.size(); ++n) coupled_bound_[n] = coupled.derivative_bound(static_cast<int>(n) + 1);
   }
   const MatrixX magnitude = G.cwiseAbs();
   size_ = magnitude * magnitude.transpose();
@@ -173,7 +183,7 @@ ContactForces SustainedContact::solve(const ModalState& state, const VectorX& ga
   VectorX acceleration(modes_.padded);
   for (int i = 0; i < panel_points; ++i) {
     propagator_.step(state, nodes_[static_cast<std::size_t>(i)], at_node_);
-    acceleration = at_node_.f0 - 2 * modes_.decay.cwiseProduct(at_node_.y) - modes_.square.cwiseProduct(at_node_.x);
+    acceleration = propagator_.accelerations(at_node_);
     for (Eigen::Index c = 0; c < count; ++c) {
       const int pair = pairs[static_cast<std::size_t>(c)];
       const bool compliant = modes_.compliant[static_cast<std::size_t>(pair)];
@@ -192,7 +202,8 @@ ContactForces SustainedContact::solve(const ModalState& state, const VectorX& ga
 VectorX SustainedContact::force_noise(const ModalState& state, const std::vector<int>& pairs) const {
   const auto count = static_cast<Eigen::Index>(pairs.size());
   // a load that passes through zero is rounded as it was before and will be after
-  const VectorX terms = state.f0.cwiseAbs() + longest_panel * state.f1.cwiseAbs() + 2 * modes_.decay.cwiseProduct(state.y.cwiseAbs()) + modes_.square.cwiseProduct(state.x.cwiseAbs());
+  VectorX terms = state.f0.cwiseAbs() + longest_panel * state.f1.cwiseAbs() + 2 * modes_.decay.cwiseProduct(state.y.cwiseAbs()) + modes_.square.cwiseProduct(state.x.cwiseAbs());
+  propagator_.coupled().add_sizes(state, terms);
   VectorX acceleration(count), scale(count);
   for (Eigen::Index c = 0; c < count; ++c) {
     const int pair = pairs[static_cast<std::size_t>(c)];
@@ -211,19 +222,25 @@ void SustainedContact::move(const ModalState& from, const ContactForces& forces,
   // the convolution with the forces by Gauss's rule: impulses at its points
   const Gauss& g = gauss();
   ModalState now = from;
+  CoupledMotion& coupled = propagator_.coupled();
+  coupled.start_run();
   double at = 0;
   for (std::size_t i = 0; i < panel_points; ++i) {
     const double time = s * g.point[i];
-    propagator_.move(now, time - at, after);
+    propagator_.move_oscillators(now, time - at, after);
+    coupled.run(time - at);
     std::swap(now, after);
     at = time;
     const PanelVector basis = lagrange(time / forces.length);
     for (std::size_t k = 0; k < forces.pairs.size(); ++k) {
       const double force = basis.dot(forces.values.col(static_cast<Eigen::Index>(k)));
       now.y += (g.weight[i] * s * force) * modes_.gap.row(forces.pairs[k]).transpose();
+      coupled.kick(forces.pairs[k], g.weight[i] * s * force);
     }
   }
-  propagator_.move(now, s - at, after);
+  propagator_.move_oscillators(now, s - at, after);
+  coupled.run(s - at);
+  coupled.finish_run(after);
 }
 
 double SustainedContact::work(const VectorX& f1, const ContactForces& forces, double s) const {
@@ -242,6 +259,15 @@ double SustainedContact::work(const VectorX& f1, const ContactForces& forces, do
       }
     }
     work -= sum;
+  }
+  CoupledMotion& coupled = propagator_.coupled();
+  if (coupled.empty()) return work;
+  coupled.weigh(f1);
+  VectorX impulses = VectorX::Zero(modes_.pairs());
+  for (std::size_t i = 0; i < panel_points; ++i) {
+    const double at = s * gauss().point[i];
+    for (std::size_t k = 0; k < forces.pairs.size(); ++k) impulses[forces.pairs[k]] = gauss().weight[i] * s * value(forces, k, at);
+    work -= coupled.impulse_integral(s - at, impulses);
   }
   return work;
 }
@@ -310,6 +336,9 @@ double SustainedContact::fourth_bound(const ContactForces& forces, int pair) con
     // x = int B(s - t) f dt: x'''' = f'' + B''(0) f' + B'''(0) f + int B'''' f dt, |B^(n)| <= (w + 2 a)^(n - 1)
     bound += size2_(pair, other) * d[0] * (1 + modes_.highest * forces.length) + std::sqrt(size2_(pair, other) * size_(pair, other)) * d[1] +
              size_(pair, other) * d[2] + std::abs(modes_.compliance(pair, other)) * d[4];
+    if (propagator_.coupled().empty()) continue;
+    bound += coupled_bound_[0](pair, other) * d[2] + coupled_bound_[1](pair, other) * d[1] +
+             (coupled_bound_[2](pair, other) + coupled_bound_[3](pair, other) * forces.length) * d[0];
   }
   return bound;
 }

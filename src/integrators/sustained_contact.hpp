@@ -60,6 +60,7 @@ class SustainedContact {
   std::vector<MatrixX> displacement_, acceleration_;  // pairs x pairs, at (node, quadrature point): response to a unit impulse
   std::array<MatrixX, 6> moments_;                  // G diag(n-th derivative of the impulse response at 0) G'
   MatrixX size_, size2_;                            // |G||G|', |G| w^2 |G|'
+  std::array<MatrixX, 4> coupled_bound_;            // on derivatives 1..4 of the response of modes that damping ties together
   MatrixX to_bernstein_;
   std::map<std::vector<int>, SetSolver> solvers_;
   ModalState before_, at_node_;

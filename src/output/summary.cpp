@@ -163,6 +163,9 @@ OrderedJson modes_json(const Summary& summary) {
                     {"added", mode.damping_effective - mode.damping_asked},
                     {"effective_frequency", mode.frequency_effective},
                     {"period_error", mode.frequency_effective > 0 ? mode.frequency / mode.frequency_effective - 1 : 0.0}});
+    if (mode.complex_frequency == 0) continue;
+    list.back()["complex_frequency"] = mode.complex_frequency;
+    list.back()["complex_damping"] = mode.complex_damping;
   }
   return list;
 }
