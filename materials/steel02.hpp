@@ -110,10 +110,9 @@ HWY_INLINE void start_branch(const Steel02& law, T increment, const Steel02::His
   const T new_range = sign * max(outward * T(1 / (E - hardening)), T(1e-12 * yield_strain));
   next.reversal_strain = select(reversed, committed.strain, committed.reversal_strain);
   next.reversal_stress = select(reversed, committed.stress, committed.reversal_stress);
-  const T asymptote_strain = select(reversed, committed.strain + new_range, sign * T(yield_strain));
+  const T range = select(reversed, new_range, sign * T(yield_strain)), asymptote_strain = next.reversal_strain + range;
 
   // R = R0 above / below with below = cR2 + x, above = cR2 + (1 - cR1) x; one division serves R, 1/R and the range
-  const T range = asymptote_strain - next.reversal_strain;
   const T target_strain = select(rising, next.largest_strain, next.least_strain);
   const T excursion = abs(target_strain - asymptote_strain) * T(1 / yield_strain);
   const T below = T(law.cR2) + excursion, above = mul_add(T(1 - law.cR1), excursion, T(law.cR2));
