@@ -9,15 +9,15 @@ import json
 import os
 
 from harness import BENCH, Nsframe, arguments, progress
-from pair import CASES, ROOF_NODES, largest_difference, run_nsframe
+from pair import DAMPED, OWN_CASES, ROOF_NODES, largest_difference, run_nsframe
 
 DURATION, INTERVAL = 6.0, 0.005                                             # [s]
-STEP = {"elastic": 1e-3, "displacement-based": 1e-5, "force-based": 1e-5}   # [s]
-SCHEME = {"elastic": "exact", "displacement-based": "exponential", "force-based": "exponential"}
+STEP = {"elastic": 1e-3, "displacement-based": 1e-5, "force-based": 1e-5, DAMPED: 1e-5}   # [s]
+SCHEME = {"elastic": "exact", "displacement-based": "exponential", "force-based": "exponential", DAMPED: "exponential"}
 
 
 def path_of(columns):
-    return os.path.join(BENCH, "reference", "two_story_%s.csv" % columns.replace("-", "_"))
+    return os.path.join(BENCH, "reference", "two_story_%s.csv" % columns.replace("-", "_").replace(" ", "_"))
 
 
 def make(nsframe, columns, step):
@@ -48,7 +48,7 @@ def read(columns):
 
 if __name__ == "__main__":
     parser = arguments(argparse.ArgumentParser(description=__doc__.splitlines()[0]))
-    parser.add_argument("--columns", choices=CASES, nargs="+", default=list(CASES))
+    parser.add_argument("--columns", choices=OWN_CASES, nargs="+", default=list(OWN_CASES))
     options = parser.parse_args()
     for name in options.columns:
         make(Nsframe(options.program), name, 1e-3 if options.quick else STEP[name])

@@ -10,22 +10,25 @@ import argparse
 import references
 from harness import (Nsframe, arguments, machine, number, peer_arguments, peer_python, progress, run_bench, step_microseconds, table,
                      write_compared)
-from pair import CASES, ROOF_NODES, Opensees, largest_difference, moreau_jean, run_nsframe
+from pair import DAMPED, OWN_CASES, ROOF_NODES, Opensees, largest_difference, moreau_jean, run_nsframe
 
 TITLES = {"elastic": "Elastic columns", "displacement-based": "Fiber columns, Steel02, displacement-based",
-          "force-based": "Fiber columns, Steel02, force-based"}
-DURATION = {"elastic": 20.0, "displacement-based": 6.0, "force-based": 6.0}  # [s] of motion for speed and peaks
+          "force-based": "Fiber columns, Steel02, force-based",
+          DAMPED: "Fiber columns, Steel02, displacement-based, 2 % damping of all modes"}
+DURATION = {"elastic": 20.0, "displacement-based": 6.0, "force-based": 6.0, DAMPED: 6.0}  # [s] of motion for speed and peaks
 PAPER, HALF = ("theta = 1, gamma = 1.5", moreau_jean(1.0)), ("theta = 0.5, gamma = 0.5", moreau_jean(0.5, 0.5))
 EXACT, EXPONENTIAL = ("exact", {"analysis.scheme": "exact"}), ("exponential", {"analysis.scheme": "exponential"})
-ACCURATE = ("exponential, accuracy 1e-3", {"analysis.scheme": "exponential", "analysis.accuracy": 1e-3})
+ACCURATE, MOST_ACCURATE = (("exponential, accuracy 1e-%d" % digits, {"analysis.scheme": "exponential", "analysis.accuracy": 10.0 ** -digits})
+                           for digits in (3, 4))
 FIBER = [(PAPER, 1e-3, 3), (HALF, 1e-3, 3), (HALF, 1e-4, 1), (EXPONENTIAL, 5e-3, 3), (EXPONENTIAL, 1e-3, 3), (EXPONENTIAL, 1e-4, 1),
          (ACCURATE, 1e-3, 1)]
 # setting, dt [s], runs; the first is the setting of the paper
 NSFRAME = {"elastic": [(PAPER, 1e-3, 7), (HALF, 1e-3, 7), (HALF, 1e-4, 3), (HALF, 1e-5, 1), (EXACT, 1e-3, 7), (EXACT, 5e-3, 7)],
-           "displacement-based": FIBER, "force-based": FIBER}
+           "displacement-based": FIBER, "force-based": FIBER,
+           DAMPED: FIBER + [(EXPONENTIAL, 2e-3, 3), (MOST_ACCURATE, 1e-3, 1)]}
 # penalty [N/m], dt [s], runs, duration [s] or None for that of the case; the first is the fastest
 OPENSEES = {"elastic": [(1e8, 1e-3, 3, None), (1e9, 1e-4, 1, 6.0)], "displacement-based": [(1e8, 1e-3, 2, None)],
-            "force-based": [(1e8, 1e-3, 2, None)]}
+            "force-based": [(1e8, 1e-3, 2, None)], DAMPED: []}
 QUICK = 0.05  # [s]
 
 
@@ -96,7 +99,7 @@ def text_of(columns, reference, rows):
 
 def main():
     parser = arguments(argparse.ArgumentParser(description=__doc__.splitlines()[0]))
-    parser.add_argument("--columns", choices=CASES, nargs="+", default=list(CASES))
+    parser.add_argument("--columns", choices=OWN_CASES, nargs="+", default=list(OWN_CASES))
     peer_arguments(parser)
     options = parser.parse_args()
     nsframe = Nsframe(options.program)
