@@ -15,7 +15,7 @@ namespace {
 
 constexpr double coupling_tolerance = 1e-8;  // of damping between two modes, relative to their own, that is taken for rounding
 constexpr double tied = 1e-13;               // the same, once damping ties some modes together
-constexpr double rounding = 32 * machine_epsilon;  // of the terms that a coupling is the sum of
+constexpr double coupling_rounding = 32 * machine_epsilon;  // of the terms that a coupling is the sum of
 constexpr double slowest_scale = 1;          // [rad/s]: slower modes are scaled as if they had this frequency
 constexpr double no_dashpot = 1e-12;         // of the longest relaxation time, that counts as none
 
@@ -107,7 +107,7 @@ std::vector<std::vector<int>> tied_sets(const BlockModes& modes, const ModalDamp
     if (i >= n) return false;
     const double own = std::max(0.0, damping.D(i, i));
     if (j >= n) return std::abs(damping.coupling(i, j - n)) > tied * std::sqrt(own * damping.relaxation[j - n]) + 1e-300;
-    return std::abs(damping.D(i, j)) > std::max(tied * std::sqrt(own * std::max(0.0, damping.D(j, j))), rounding * damping.size(i, j));
+    return std::abs(damping.D(i, j)) > std::max(tied * std::sqrt(own * std::max(0.0, damping.D(j, j))), coupling_rounding * damping.size(i, j));
   };
   std::vector<std::vector<int>> sets;
   std::vector<bool> seen(static_cast<std::size_t>(all), false);

@@ -13,11 +13,16 @@ namespace {
 // Free DOFs of one structure: its dense eigen-solve takes one or two seconds then, and grows as n^3; so does, as n^2, the product
 // of its modes in a thousand kept results.
 constexpr int most_dofs = 1000;
+// The same where dashpots may tie its modes together: the matrix has twice the rows and is not symmetric.
+constexpr int most_tied_dofs = 250;
 
 // Why natural modes are not for this scene; empty when they may be.
 std::string reason_against_modes(const System& system, const State& start) {
   for (const Structure& structure : system.model.structures) {
     const int dofs = structure.last_dof - structure.first_dof;
+    if (dofs > most_tied_dofs && system.model.viscous_damping.middleCols(structure.first_dof, dofs).nonZeros() > 0) {
+      return fmt::format("structure '{}' has dashpots and {} free DOFs, and complex modes are worth finding up to {}", structure.name, dofs, most_tied_dofs);
+    }
     if (dofs > most_dofs) return fmt::format("structure '{}' has {} free DOFs, and all its modes are worth finding up to {}", structure.name, dofs, most_dofs);
   }
   const Contacts& contacts = system.contacts();

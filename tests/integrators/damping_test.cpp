@@ -57,6 +57,14 @@ TEST_CASE("exact: a damper of two oscillators at which their complex modes becom
     CAPTURE(off);
     CHECK(free_motion_error({m1, m2}, {{0, -1, m1 * w1 * w1, 0}, {1, -1, m2 * w2 * w2, 0}, {0, 1, 0, c * (1 + off)}}, {0.02, 0}, {0, 0.3}, 12) < 2e-13);
   }
+  // there (s2 + p s + w1 w2)^2 = 0
+  const Summary summary =
+      run(chain({m1, m2}, {{0, -1, m1 * w1 * w1, 0}, {1, -1, m2 * w2 * w2, 0}, {0, 1, 0, c}}, {0.02, 0}), exact_options(0.01, 0.1)).summary;
+  REQUIRE(summary.modes.size() == 2);
+  for (const ModeNumerics& mode : summary.modes) {
+    CHECK(mode.complex_frequency == doctest::Approx(std::sqrt(w1 * w2) / (2 * pi)).epsilon(1e-12));
+    CHECK(mode.complex_damping == doctest::Approx((w2 - w1) / 2 / std::sqrt(w1 * w2)).epsilon(1e-12));
+  }
 }
 
 TEST_CASE("exact: a damper at which two creeping modes become parallel: critical damping of tied modes") {

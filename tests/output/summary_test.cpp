@@ -151,6 +151,12 @@ TEST_CASE("warnings and table name the modes that matter: damped by the scene, o
   CHECK(text.find("V1") == std::string::npos);
   CHECK(text.find("... and 2 modes of less mass or without damping of the scene") != std::string::npos);
   CHECK(nlohmann::json::parse(summary_json(summary))["numerical_damping"][2]["asked"] == 0.0);
+  summary.modes[1].complex_frequency = 5.9;
+  summary.modes[1].complex_damping = 0.12;
+  const nlohmann::json modes = nlohmann::json::parse(summary_json(summary))["numerical_damping"];
+  CHECK(modes[1]["complex_damping"] == 0.12);
+  CHECK(modes[1]["complex_frequency"] == 5.9);
+  CHECK(!modes[0].contains("complex_damping"));
 }
 
 TEST_CASE("the table of peaks has one row a level, the roof first, and leaves out what stands still") {
