@@ -58,7 +58,7 @@ template <class T>
 HWY_INLINE Response<T, ElasticPP> respond(const ElasticPP& law, T strain, const ElasticPP::History<T>& committed) {
   const T trial = T(law.E) * (strain - T(law.eps0) - committed.plastic_strain);
   const T stress = max(T(law.E * law.compression_yield()), min(T(law.E * law.epsyP), trial));
-  const T plastic_strain = committed.plastic_strain + (trial - stress) / T(law.E);
+  const T plastic_strain = committed.plastic_strain + (trial - stress) * T(1 / law.E);
   return {stress, select(stress == trial, T(law.E), T(0.0)), {strain, plastic_strain}};
 }
 
