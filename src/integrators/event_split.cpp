@@ -36,7 +36,8 @@ SparseMatrix symmetric_stiffness(const System& system) {
 
 EventSplit::EventSplit(const AnalysisOptions& options, const System& system)
     : options_(options), method_(make_flight_method(options, accepted_by_event_split(system))), impact_(system),
-      parts_{IterationMatrix(system), symmetric_stiffness(system)}, flow_(method_->part_theta(), parts_.matrix) {
+      parts_{IterationMatrix(system), symmetric_stiffness(system)}, flow_(method_->part_rule(), parts_.matrix), tangent_(system),
+      ladder_(options.algorithm) {
   const Contacts& contacts = system.contacts();
   touching_.assign(static_cast<std::size_t>(contacts.size()), false);
   offset_ = contact_impulse_ = step_impulse_ = rate_ = VectorX::Zero(contacts.size());
@@ -76,7 +77,7 @@ void EventSplit::find_gaps(const System& system) {
   gap_ += system.contacts().initial_gap + offset_;
 }
 
-EventSplit::Event EventSplit::find_event(double length) {
+EventSplit::Event EventSplit::find_event(double length) const {
   Event event{length, Event::Kind::none, -1};
   for (std::size_t k = 0; k < closed_.size(); ++k) {
     const double at = flow_.release(k, length);
@@ -135,7 +136,7 @@ bool EventSplit::fly(System& system, double time, double h, StepResult& result) 
 
 double EventSplit::advance(System& system, double time, double length, StepResult& result) {
   begin_flow(system, time, length, closed_);
-  const Event event = find_event(length);
+  const Event event = system.linear() ? find_event(length) : solve_part(system, time, length, result);
   const double s = event.time;
   result.active_pairs = std::max(result.active_pairs, static_cast<int>(closed_.size()));
   for (std::size_t k = 0; k < closed_.size(); ++k) {
@@ -188,6 +189,7 @@ void EventSplit::step(System& system, const State& committed, State& trial, doub
   last_displacement_.resize(0);  // a step that fails leaves contact somewhere: the next one then begins afresh
   now_ = {committed.displacement, committed.velocity, committed.internal_force, fresh ? VectorX() : std::move(now_.a), {}};
   step_impulse_.setZero();
+  tangent_.in_use = false;
   from_ = &committed.history;
   to_ = &trial.history;
   other_ = &history_;
@@ -224,6 +226,7 @@ void EventSplit::step(System& system, const State& committed, State& trial, doub
 void EventSplit::save(Snapshot& snapshot) const {
   method_->save(snapshot);
   parts_.save(snapshot, "event_split.parts");
+  tangent_.own.save(snapshot, "event_split.tangent");
   VectorX flags = VectorX::Zero(offset_.size());
   for (Eigen::Index c = 0; c < flags.size(); ++c) flags[c] = touching_[static_cast<std::size_t>(c)] ? 1 : 0;
   for (const int c : closed_) flags[c] = 2;
@@ -240,6 +243,7 @@ void EventSplit::save(Snapshot& snapshot) const {
 void EventSplit::restore(System& system, const Snapshot& snapshot) {
   method_->restore(system, snapshot);
   parts_.restore(system, snapshot, "event_split.parts");
+  tangent_.own.restore(system, snapshot, "event_split.tangent");
   VectorX flags = VectorX::Zero(offset_.size());
   snapshot.read("event_split.contact", flags);
   closed_.clear();

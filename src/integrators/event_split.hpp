@@ -3,8 +3,7 @@
 #pragma once
 
 #include "integrators/flight_method.hpp"
-#include "integrators/impact_matrix.hpp"
-#include "integrators/part_flow.hpp"
+#include "integrators/part_problem.hpp"
 
 namespace nsframe {
 
@@ -14,7 +13,7 @@ class EventSplit : public Scheme {
   std::string name() const override { return "event-split"; }
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double h) const override { return method_->mode_response(w, xi, h); }
-  long factorizations() const override { return method_->factorizations() + parts_.matrix.factorizations(); }
+  long factorizations() const override { return method_->factorizations() + parts_.matrix.factorizations() + tangent_.own.matrix.factorizations(); }
   double struck_frequency() const override { return struck_; }
   std::vector<std::string> describe() const override;
   void save(Snapshot& snapshot) const override;
@@ -23,14 +22,14 @@ class EventSplit : public Scheme {
  private:
   struct Event {
     double time = 0;  // since the start of the part [s]
-    enum class Kind { none, closes, opens } kind = Kind::none;
+    enum class Kind { none, closes, opens, probe } kind = Kind::none;
     int pair = -1;
   };
   // A whole step without contact; false, with everything as before, where a pair might close in it.
   bool fly(System& system, double time, double h, StepResult& result);
   // Far from contact: the gaps at one end are larger than what their rates there could do in the whole step.
   bool clear(const System& system, const Motion& motion, double h) const;
-  Event find_event(double length);
+  Event find_event(double length) const;
   // Moves on to the next event, at most by `length`; returns by how much.
   double advance(System& system, double time, double length, StepResult& result);
   // Throws ConvergenceError where a pair overlaps.
@@ -48,11 +47,11 @@ class EventSplit : public Scheme {
   int parts_of(double h) const;
   void prepare_parts(const System& system, double h);
   // Moves what has no mass to where it rests.
-  void rest_massless(System& system, double sufficient);
-  // Its first step: where the stiffness at rest leads by a residual force, with the gaps of closed pairs at such DOFs unchanged.
-  VectorX massless_change(const System& system, const VectorX& residual) const;
+  void rest_massless(System& system);
   PartLoad part_load(const System& system, double time, double length) const;
   void begin_flow(const System& system, double time, double length, const std::vector<int>& held);
+  // Bends the flow as nonlinear members ask for, and finds its next event.
+  Event solve_part(System& system, double time, double length, StepResult& result);
   void evaluate(System& system, double s, double time, StepResult& result);
   // Energies of a part or step of length s that began with `start`; `dissipated` [J] where its formulas tell.
   void account(const System& system, const Motion& start, double time, double s, std::optional<double> dissipated, StepResult& result);
@@ -60,6 +59,8 @@ class EventSplit : public Scheme {
   // Impacts at this time, until no gap that is zero closes any more; then which pairs stay closed (event_split_contact.cpp).
   void collide(const System& system, double time, double remaining, StepResult& result);
   bool collide_once(const System& system, double time, double remaining, bool last, StepResult& result);
+  // Whether the rates of all pairs that touch are those of `before` but for a factor below 1.
+  bool shrinks(const VectorX& before) const;
   // Touching pairs that a law with restitution would let bounce ever faster from here on, too fast for the step.
   std::vector<int> accumulating(const System& system, const std::vector<int>& pairs) const;
   void settle(const System& system, double time, double remaining, StepResult& result);
@@ -84,6 +85,8 @@ class EventSplit : public Scheme {
   ImpactMatrix impact_;
   FactoredStiffness parts_;             // with the stiffness at rest
   PartFlow flow_;
+  TangentFactors tangent_;
+  Ladder ladder_;                       // of nonlinear parts
   std::vector<bool> massless_;
   double struck_ = 0;                   // circular frequency of a struck point by itself, the highest [rad/s]
   double last_contact_ = -1e300;        // [s]

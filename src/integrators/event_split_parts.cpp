@@ -1,20 +1,21 @@
-// Motion of the scheme `event-split` over parts of a step (theory.md, 290-294, 298).
+// Motion of the scheme `event-split` over parts of a step (theory.md, 290-294, 350-353).
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "base/decompositions.hpp"
 #include "base/errors.hpp"
 #include "integrators/event_split.hpp"
+#include "integrators/part_problem.hpp"
 
 namespace nsframe {
 
 namespace {
 
 constexpr int most_follow_ups = 40;      // of what has no mass, until it rests
-constexpr double massless_rest = 1e-6;   // of the motion of a part, that may be left
 constexpr double resolved = 0.25;        // angle by which a struck point may turn in a part
 constexpr int most_cuts = 64;            // of a step
+constexpr int most_probes = 50;          // of the end of a part
+constexpr double slow_probes = 0.25;     // factor of the last correction of that end, above which they take the secant
 
 }  // namespace
 
@@ -26,39 +27,18 @@ int EventSplit::parts_of(double h) const {
 
 void EventSplit::prepare_parts(const System& system, double h) {
   part_length_ = h / parts_of(h);
-  const double a = method_->part_theta() * part_length_;
+  const double a = flow_.rule().theta * part_length_;
   if (!parts_.matrix.ready(a)) parts_.matrix.factor(system, parts_.stiffness, a);
   flow_.set_longest(part_length_);
 }
 
-VectorX EventSplit::massless_change(const System& system, const VectorX& residual) const {
-  VectorX change = impact_.follow(residual);
-  std::vector<int> held;
-  std::copy_if(closed_.begin(), closed_.end(), std::back_inserter(held), [&](int c) { return impact_.compliant(c); });
-  if (held.empty()) return change;
-  const auto count = static_cast<Eigen::Index>(held.size());
-  MatrixX responses(change.size(), count), flexibility(count, count);
-  VectorX gap(count);
-  for (Eigen::Index b = 0; b < count; ++b) {
-    responses.col(b) = impact_.follow(VectorX(system.contacts().jacobian.row(held[static_cast<std::size_t>(b)]).transpose()));
-  }
-  for (Eigen::Index a = 0; a < count; ++a) {
-    const auto row = system.contacts().jacobian.row(held[static_cast<std::size_t>(a)]);
-    gap[a] = row.dot(change);
-    for (Eigen::Index b = 0; b < count; ++b) flexibility(a, b) = row.dot(VectorX(responses.col(b)));
-  }
-  const VectorX forces = Eigen::CompleteOrthogonalDecomposition<MatrixX>(flexibility).solve(gap);
-  change -= responses * forces;
-  return change;
-}
-
-void EventSplit::rest_massless(System& system, double sufficient) {
+void EventSplit::rest_massless(System& system) {
   if (!impact_.any_massless()) return;
   double last = std::numeric_limits<double>::infinity();
   for (int i = 0; i < most_follow_ups; ++i) {
-    const VectorX change = massless_change(system, system.static_load - now_.P);
+    const VectorX change = impact_.follow(system.contacts(), closed_, system.static_load - now_.P);
     const double size = change.cwiseAbs().maxCoeff();
-    if (!(size > sufficient + 4 * machine_epsilon * now_.q.cwiseAbs().maxCoeff()) || size >= last) break;  // to rounding
+    if (!(size > 4 * machine_epsilon * now_.q.cwiseAbs().maxCoeff()) || size >= last) break;
     last = size;
     now_.q += change;
     system.assembler.start_step(*from_, *to_);
@@ -79,7 +59,7 @@ void EventSplit::start(System& system, const State& committed) {
       if (impact_.compliant(c) && gap_[c] <= start_tolerance(system, c)) closed_.push_back(c);  // until what has no mass rests
     }
   }
-  rest_massless(system, 0);
+  rest_massless(system);
   if (!system.linear() && now_.q != committed.displacement) {
     from_ = to_;
     std::swap(to_, other_);
@@ -117,9 +97,35 @@ PartLoad EventSplit::part_load(const System& system, double time, double length)
 }
 
 void EventSplit::begin_flow(const System& system, double time, double length, const std::vector<int>& held) {
-  flow_.hold(system.contacts(), held);
+  flow_.held().hold(system.contacts(), held);
   flow_.begin(system, now_.v, now_.P, part_load(system, time, length), massless_);
   flow_.gap_coefficients(system.contacts(), path_);
+}
+
+EventSplit::Event EventSplit::solve_part(System& system, double time, double length, StepResult& result) {
+  Event event = find_event(length), probe = event;
+  double last_at = 0, last_shift = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < most_probes; ++i) {
+    if (!(probe.time > 0)) return probe;
+    PartProblem problem({system, impact_, flow_, parts_, tangent_, options_}, probe.time, now_, *from_, *to_, result);
+    solve_flight(ladder_, problem, options_, system, time, result);
+    next_.P = std::move(problem.P);
+    if (result.guess_stood && probe.kind != Event::Kind::probe) return probe;
+    flow_.bend(probe.time, problem.x, problem.forces);
+    flow_.gap_coefficients(system.contacts(), path_);
+    event = find_event(length);
+    const double shift = event.time - probe.time;
+    if (shift == 0) return event;
+    Event next = event;
+    if (std::abs(shift) > slow_probes * std::abs(last_shift)) {  // by the secant of what the last two have found
+      const double at = probe.time - shift * (probe.time - last_at) / (shift - last_shift);
+      if (at > 0 && at < length) next = {at, Event::Kind::probe, -1};
+    }
+    last_at = probe.time;
+    last_shift = shift;
+    probe = next;
+  }
+  throw ConvergenceError(fmt::format("an event within the step at t = {:.9g} s was not found in {} solutions", time, most_probes));
 }
 
 void EventSplit::evaluate(System& system, double s, double time, StepResult& result) {
@@ -128,17 +134,12 @@ void EventSplit::evaluate(System& system, double s, double time, StepResult& res
   now_.q += now_.change;
   flow_.velocity(s, now_.v);
   now_.a.resize(0);
-  system.assembler.start_step(*from_, *to_);
-  system.assembler.internal_force(now_.q, *from_, *to_, now_.P, false);
-  ++result.evaluations;
-  if (!system.linear()) {
-    const VectorX reached = now_.q;
-    rest_massless(system, massless_rest * now_.change.cwiseAbs().maxCoeff());
-    now_.change += now_.q - reached;
-    VectorX departure = now_.P - start.P, correction;
-    departure.noalias() -= parts_.stiffness * now_.change;
-    flow_.solve(departure, correction);
-    now_.v -= (0.5 * s) * correction;
+  if (system.linear()) {
+    system.assembler.start_step(*from_, *to_);
+    system.assembler.internal_force(now_.q, *from_, *to_, now_.P, false);
+    ++result.evaluations;
+  } else {
+    now_.P = next_.P;
     from_ = to_;
     std::swap(to_, other_);
   }

@@ -7,6 +7,7 @@
 
 #include "integrators/algorithms.hpp"
 #include "integrators/iteration_matrix.hpp"
+#include "integrators/part_flow.hpp"
 #include "integrators/scheme.hpp"
 
 namespace nsframe {
@@ -90,8 +91,8 @@ class FlightMethod {
   }
   // Of a free mode of circular frequency w [rad/s] and damping ratio xi at step h [s].
   virtual Scheme::ModeResponse mode_response(double w, double xi, double h) const = 0;
-  // theta of the parts of a step (part_flow.hpp).
-  virtual double part_theta() const { return 0.5; }
+  // Of the parts of a step.
+  virtual PartRule part_rule() const = 0;
   virtual long factorizations() const = 0;
   virtual std::string describe() const = 0;
   virtual void save(Snapshot& snapshot) const = 0;

@@ -29,6 +29,7 @@ class GeneralizedAlpha : public FlightMethod {
   GeneralizedAlpha(const AnalysisOptions& options, const System& system, const GeneralizedAlphaParameters& parameters, std::string name);
   void step(System& system, const FlightStep& step, Motion& end, StepResult& result) override;
   Scheme::ModeResponse mode_response(double w, double xi, double h) const override { return generalized_alpha_response(p_, w, xi, h); }
+  PartRule part_rule() const override { return {0.5, options_.rho_infinity}; }
   long factorizations() const override { return own_.matrix.factorizations(); }
   std::string describe() const override;
   void save(Snapshot& snapshot) const override { own_.save(snapshot, name_); }

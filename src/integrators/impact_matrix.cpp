@@ -1,5 +1,6 @@
 #include "integrators/impact_matrix.hpp"
 
+#include "base/decompositions.hpp"
 #include "base/errors.hpp"
 
 namespace nsframe {
@@ -44,6 +45,29 @@ VectorX ImpactMatrix::follow(const VectorX& residual) const {
   for (Eigen::Index i = 0; i < load.size(); ++i) {
     if (!massless(i)) motion[i] = 0;
   }
+  return motion;
+}
+
+VectorX ImpactMatrix::follow(const Contacts& contacts, const std::vector<int>& held, const VectorX& residual, VectorX* forces) const {
+  VectorX motion = follow(residual);
+  if (forces) forces->setZero(static_cast<Eigen::Index>(held.size()));
+  std::vector<Eigen::Index> pressed;
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    if (compliant(held[k])) pressed.push_back(static_cast<Eigen::Index>(k));
+  }
+  if (pressed.empty()) return motion;
+  const auto count = static_cast<Eigen::Index>(pressed.size());
+  const auto row = [&](Eigen::Index k) { return contacts.jacobian.row(held[static_cast<std::size_t>(pressed[static_cast<std::size_t>(k)])]); };
+  MatrixX responses(motion.size(), count), flexibility(count, count);
+  VectorX gap(count);
+  for (Eigen::Index b = 0; b < count; ++b) responses.col(b) = follow(VectorX(row(b).transpose()));
+  for (Eigen::Index a = 0; a < count; ++a) {
+    gap[a] = row(a).dot(motion);
+    for (Eigen::Index b = 0; b < count; ++b) flexibility(a, b) = row(a).dot(VectorX(responses.col(b)));
+  }
+  const VectorX pull = Eigen::CompleteOrthogonalDecomposition<MatrixX>(flexibility).solve(gap);
+  motion -= responses * pull;
+  if (forces) (*forces)(pressed) = -pull;
   return motion;
 }
 

@@ -16,6 +16,8 @@ class ImpactMatrix {
   VectorX velocity_change(const VectorX& momentum) const { return factor_.solve(momentum); }
   // The displacement by which DOFs without mass yield to a residual force on them; the others do not move.
   VectorX follow(const VectorX& residual) const;
+  // The same with the gaps of those of the pairs `held` that are at such DOFs as they are, by `forces` [N]: zero of the others.
+  VectorX follow(const Contacts& contacts, const std::vector<int>& held, const VectorX& residual, VectorX* forces = nullptr) const;
 
   bool massless(Eigen::Index dof) const { return massless_[static_cast<std::size_t>(dof)]; }
   bool any_massless() const { return any_massless_; }

@@ -6,9 +6,16 @@
 
 #include <array>
 
-#include "integrators/iteration_matrix.hpp"
+#include "integrators/held_solution.hpp"
 
 namespace nsframe {
+
+// What a part leaves of motion that its length does not resolve (theory.md, 350): 1 - kappa f^2 in the place of 1 - f^2.
+struct PartRule {
+  double theta = 0.5;         // [1/2, 1]
+  double rho_infinity = 1;    // [0, 1], beside what theta damps
+  double kappa() const { return 0.5 * (3 - rho_infinity); }
+};
 
 // Loads over a part, linear in time [N], [N/s].
 struct PartLoad {
@@ -19,14 +26,20 @@ using GapCoefficients = Eigen::Matrix<double, Eigen::Dynamic, 4>;
 
 class PartFlow {
  public:
-  PartFlow(double theta, IterationMatrix& matrix) : theta_(theta), matrix_(matrix) {}
+  PartFlow(const PartRule& rule, IterationMatrix& matrix) : rule_(rule), held_(matrix) {}
 
   // Longest part h [s]; the factors are ready for theta h.
   void set_longest(double h) { h_ = h; }
-  // Pairs whose gaps stay as they are; ascending.
-  void hold(const Contacts& contacts, const std::vector<int>& closed);
-  // From velocity v and internal force P.
+  double longest() const { return h_; }
+  const PartRule& rule() const { return rule_; }
+  HeldSolution& held() { return held_; }
+  // From velocity v and internal force P, with the gaps of the held pairs as they are.
   void begin(const System& system, const VectorX& v, const VectorX& P, const PartLoad& load, const std::vector<bool>& massless);
+  // Adds to the motion of begin() a force that grows in proportion to time, such that q(s) moves by `shift` in addition, with `forces` [N]
+  // of the held pairs at s. It takes the place of an earlier one.
+  void bend(double s, const VectorX& shift, const VectorX& forces);
+  // By how much bend() has moved q(s).
+  VectorX shift(double s) const { return bend_.size() > 0 ? VectorX(s * s * s * bend_) : VectorX(VectorX::Zero(v_.size())); }
 
   void velocity(double s, VectorX& v) const;
   VectorX mean_velocity(double s) const;
@@ -36,27 +49,17 @@ class PartFlow {
   double impulse(std::size_t k, double s) const;
   // First time up to s at which that force turns negative; s when it does not.
   double release(std::size_t k, double s) const;
-  // x = J^-1 (rhs + H' forces) with the held gaps unchanged.
-  void solve(const VectorX& rhs, VectorX& x, VectorX* forces = nullptr);
-  // Moves q along J^-1 H' so that these gaps of the held pairs vanish.
-  void close_gaps(const VectorX& gap, VectorX& q);
-  const std::vector<int>& held() const { return held_; }
+  // Part of s^2 J^-1 and of -s^2 J^-1 (M + a C) J^-1 in the motion q(s) under a constant force.
+  std::array<double, 2> response(double s) const;
 
  private:
-  VectorX multipliers(const VectorX& gap) const;
-
-  double theta_, h_ = 0;
-  IterationMatrix& matrix_;
-  const Contacts* contacts_ = nullptr;
-  std::vector<int> held_;
-  long factored_ = -1;                       // factorization that the held pairs' matrix belongs to
-  VectorX scale_;
-  bool redundant_ = false;                   // of the held pairs, to rounding: then by `set_`
-  Eigen::LLT<MatrixX> cholesky_;             // of the scaled H J^-1 H' of the held pairs
-  Eigen::CompleteOrthogonalDecomposition<MatrixX> set_;
+  const PartRule rule_;
+  double h_ = 0;
+  HeldSolution held_;
   VectorX v_, rhs_;
   std::array<VectorX, 4> move_, speed_;      // coefficients of [q(s) - q] / s and of v(s) - v: s^0.., s^1..
   std::array<VectorX, 2> impulse_;           // s^1, s^2 of the held pairs' impulses: their forces are linear
+  VectorX bend_, bend_impulse_;              // what bend() has added to move_[2], impulse_[1]
 };
 
 }  // namespace nsframe

@@ -25,7 +25,7 @@ class ThetaMethod : public FlightMethod {
   Scheme::ModeResponse mode_response(double w, double xi, double h) const override {
     return theta_method_response(options_.theta, w, xi, h);
   }
-  double part_theta() const override { return options_.theta; }
+  PartRule part_rule() const override { return {options_.theta, 1}; }
   long factorizations() const override { return own_.matrix.factorizations(); }
   void save(Snapshot& snapshot) const override { own_.save(snapshot, "theta_method"); }
   void restore(System& system, const Snapshot& snapshot) override { own_.restore(system, snapshot, "theta_method"); }

@@ -151,7 +151,7 @@ TEST_CASE("event-split: generalized-alpha and alpha-OS on yielding masses and fi
         CHECK(ours.summary.max_penetration < 1e-9);
         CHECK(ours.summary.stiffened_steps == 0);
         if (integrator == std::string("alpha-os")) {
-          CHECK(ours.summary.newton_iterations == 0);
+          CHECK(ours.summary.newton_iterations < 10 + ours.summary.steps / 20);  // of parts, near contact
           CHECK(ours.summary.factorizations < 4 + ours.summary.steps / 6);  // two, and the looks at the tangent
         }
       }
@@ -192,6 +192,31 @@ TEST_CASE("event-split: second order over the first pounding of the two-story pa
   }
 }
 
+TEST_CASE("the two-story pair multiplies a change of its gaps a thousandfold in 6 s where only its named modes are damped, not where all are") {
+  const auto growth = [](bool all_damped, double change) {
+    const auto at_end = [&](double more) {
+      Scene scene = example_scene("two_story_elastic");
+      if (all_damped) {
+        for (StructureDescription& structure : scene.model.structures) {
+          structure.damping.named_ratios.clear();
+          structure.damping.ratios.assign(30, 0.02);
+        }
+      }
+      for (double& gap : scene.model.contacts[0].gap) gap += more;
+      const Model model = model_of(scene);
+      Simulation simulation(model, by_scheme("exact", 5e-3, 6));
+      CHECK(simulation.run({}).completed);
+      return simulation.state().displacement;
+    };
+    return (at_end(change) - at_end(0)).cwiseAbs().maxCoeff() / change;
+  };
+  const double paper = growth(false, 1e-10);
+  CHECK(paper > 300);
+  CHECK(paper < 3000);
+  CHECK(growth(false, 1e-8) == doctest::Approx(paper).epsilon(0.1));  // no chaos: the same factor whatever the change
+  CHECK(growth(true, 1e-10) < 10);
+}
+
 TEST_CASE("alpha-OS: where members stiffen too far it goes on by its implicit form, and says so") {
   // a soft spring, and a stop sixty times as stiff once a gap of 1 cm has closed: h^2 (k_t - k_0) / m = 9.6
   ModelDescription d = nonlinear_oscillator(1000, ElasticPPGap{6e5, 6e8, 0.01}, 0, 0.3);
@@ -209,7 +234,7 @@ TEST_CASE("alpha-OS: where members stiffen too far it goes on by its implicit fo
   CHECK(difference(fine, finer) < 1e-4);
 }
 
-TEST_CASE("event-split: a pair at a point without mass that yields: overlaps of a step are refused, shorter steps converge") {
+TEST_CASE("event-split: a pair at a point without mass that yields is met where it is, and shorter steps converge") {
   // a mass on a spring carries a point without mass that a yielding spring holds: the point runs ahead of what its stiffness at rest tells
   ModelDescription d = nonlinear_oscillator(1000, Steel01{2e3, 1e6, 0.01}, 0, 0.6);
   StructureDescription& s = d.structures[0];
@@ -222,17 +247,13 @@ TEST_CASE("event-split: a pair at a point without mass that yields: overlaps of 
   d.contacts = {wall("s.2", 0.02, 0.5)};
   AnalysisOptions whole = by_integrator("theta", 0.8, 0.02, 0.4);
   whole.max_halvings = 0;
-  const Run refused = run(d, whole);
-  CHECK_FALSE(refused.summary.completed);
-  CHECK(refused.summary.stop_reason.find("its closing was missed") != std::string::npos);
-  whole.max_halvings = 20;
-  CHECK(completed(d, whole).summary.halved_steps > 0);
+  CHECK(completed(d, whole).summary.max_penetration < 1e-12);
   const Run fine = completed(d, by_integrator("theta", 0.8, 1.25e-5, 0.4));
   std::vector<double> errors;
   for (const double dt : {4e-4, 1e-4}) errors.push_back(difference(completed(d, by_integrator("theta", 0.8, dt, 0.4)), fine));
-  CHECK(fine.summary.max_penetration < 1e-7);
-  CHECK(errors[0] < 1e-4);
-  CHECK(errors[1] < 0.5 * errors[0]);
+  CHECK(fine.summary.max_penetration < 1e-12);
+  CHECK(errors[0] < 4e-6);
+  CHECK(slope_over(errors[0], errors[1], 4) > 1.8);
 }
 
 TEST_CASE("event-split: a run by each method that goes on from a snapshot has the same bits") {
