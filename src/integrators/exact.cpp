@@ -53,7 +53,7 @@ void Exact::restore(System&, const Snapshot& snapshot) {
 
 std::vector<std::string> Exact::describe() const {
   std::vector<std::string> lines = flow_.describe();
-  lines.push_back("linear, every mode in closed form; impacts located, contact by an exact active-set method");
+  lines.emplace_back("linear, every mode in closed form; impacts located, contact by an exact active-set method");
   return lines;
 }
 

@@ -260,7 +260,7 @@ void Exponential::restore(System& system, const Snapshot& snapshot) {
 
 std::vector<std::string> Exponential::describe() const {
   std::vector<std::string> lines = flow_.describe();
-  lines.push_back("the stiffness at rest exactly, the rest of the internal force as a load, from one evaluation of the elements a step");
+  lines.emplace_back("the stiffness at rest exactly, the rest of the internal force as a load, from one evaluation of the elements a step");
   if (least_level_ > 0) {
     lines.push_back(fmt::format("every step in {} parts: a mode at {:.0f} Hz takes part in yielding and would grow at whole ones", 1 << least_level_,
                                 unstable_ / (2 * pi)));
