@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cstring>
+
 #include "base/errors.hpp"
 
 namespace nsframe {
@@ -18,6 +20,10 @@ const System& linear_only(const System& system, const Location& at) {
   return system;
 }
 
+bool same_bits(const VectorX& a, const VectorX& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+}
+
 }  // namespace
 
 Exact::Exact(const AnalysisOptions& options, const System& system)
@@ -26,8 +32,7 @@ Exact::Exact(const AnalysisOptions& options, const System& system)
 void Exact::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result = StepResult{};
   result.least_gap = std::numeric_limits<double>::infinity();
-  const bool fresh = last_displacement_.size() != committed.displacement.size() || last_displacement_ != committed.displacement ||
-                     last_velocity_ != committed.velocity;
+  const bool fresh = !same_bits(last_displacement_, committed.displacement) || !same_bits(last_velocity_, committed.velocity);
   if (fresh) flow_.start(system, committed);
   flow_.clear_impulse();
   flow_.travel(system, committed.time, h, fresh, result);

@@ -1,5 +1,6 @@
 #include "integrators/exact_propagator.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nsframe {
@@ -13,8 +14,11 @@ StepCoefficients by_series(long double square, long double a, long double s) {
   StepCoefficients c{0, 0, 0, 0, 0};
   long double before = 0, r = 1, power = s;  // r: n-th derivative of the impulse response at 0; power: s^n / n!
   long double slope = 0;                     // B'
-  long double previous_power = 1;
+  long double previous_power = 1, last = 1;
   for (int n = 1; n <= 30; ++n) {
+    const long double term = std::abs(r * previous_power);
+    if (std::max(term, last) < 0x1p-68L) break;  // two in turn too small to change a sum: the rest are smaller
+    last = term;
     slope += r * previous_power;
     c.B += r * power;
     c.L += r * power * s / (n + 1);
