@@ -254,7 +254,6 @@ TEST_CASE("event-split: converges to exact on random rows of two to six masses o
   CAPTURE(slopes[2]);
   CAPTURE(slopes[5]);
   CAPTURE(worst);
-  MESSAGE(slopes[0] << " " << slopes[1] << " " << slopes[2] << " " << slopes[5] << " " << slopes[50] << " worst " << worst);
   CHECK(slopes[3] > 1.8);
   CHECK(slopes[50] > 1.95);
   CHECK(worst < 1.2e-6);  // of motions of centimetres
