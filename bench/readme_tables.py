@@ -71,12 +71,13 @@ def scaling_rows():
     def by_size(case, program):
         return {row["stories"]: row for row in rows_of(cases, case) if row["program"] == program}
     elastic, fibers = (by_size(case, "nsframe") for case in ("elastic", "displacement-based"))
+    elastic_two, fibers_two = (by_size(case, "nsframe, two threads") for case in ("elastic", "displacement-based"))
     elastic_peer, fibers_peer = (by_size(case, "OpenSees") for case in ("elastic", "displacement-based"))
     lines = []
     for stories in elastic:
         a, b = elastic[stories], fibers[stories]
-        lines.append(line(["%d" % stories, "%d" % a["dofs"], number(a["step_us"]), number(elastic_peer[stories]["step_us"] / a["step_us"]),
-                           number(b["step_us"]), number(fibers_peer[stories]["step_us"] / b["step_us"]), number(b["memory_mb"])]))
+        lines.append(line(["%d" % stories, "%d" % a["dofs"], number(a["step_us"]), number(elastic_two[stories]["step_us"]), number(elastic_peer[stories]["step_us"] / a["step_us"]),
+                           number(b["step_us"]), number(fibers_two[stories]["step_us"]), number(fibers_peer[stories]["step_us"] / b["step_us"]), number(b["memory_mb"])]))
     return lines
 
 

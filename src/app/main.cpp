@@ -21,7 +21,7 @@ CLI::App* add_command(CLI::App& program, const std::string& name, const std::str
   command->add_option("scene", arguments.scene, "scene file (TOML)")->required();
   command->add_option("--set", arguments.set, "key=value: change a value of the scene, e.g. --set contact.restitution=0.5")
       ->allow_extra_args(false);
-  command->add_option("--threads", arguments.threads, "threads for nonlinear elements, and for the structures of large models (default: the scene's, 1)")
+  command->add_option("--threads", arguments.threads, "threads for nonlinear elements and large structures (default: the scene's, 1)")
       ->check(CLI::Range(1, 1024));
   return command;
 }
