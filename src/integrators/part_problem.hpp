@@ -1,5 +1,5 @@
 // The theta-method over a part of a step with nonlinear members: by how much its end is off what the flow of the stiffness at rest tells
-// (theory.md, 351-354). x is that shift of q(s), R its force residual,
+// (theory.md, 351-353). x is that shift of q(s), R its force residual,
 //   R(x) = (M + a C) x / a^2 + P(q + d + x) - P(q) - K d,  a = theta s,  d = q(s) - q of the flow,  dR/dx = J_t / a^2,
 // with the gaps of held pairs as they are. First by the factors of the parts (K at rest), then by those of the tangent.
 #pragma once
