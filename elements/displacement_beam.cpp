@@ -89,7 +89,6 @@ void DisplacementBeams::prepare(const Element& e) {
   Virgin& virgin = virgin_.emplace_back();
   virgin.screened = can_be_quiet(e);
   if (!virgin.screened) return;
-  virgin.length = e.frame.length;
   virgin.torsion = e.torsion;
   for (int i = 0; i < e.points(); ++i) {
     const FiberSection& section = e.section(i);
@@ -134,8 +133,9 @@ bool DisplacementBeams::stay_quiet(int element, const Vector5& v, const double* 
   const Note& now = note_of(committed);
   Note& next = note_of(trial);
   const Vector5 change = v - Eigen::Map<const Vector5>(now.last);
-  const double moved = std::abs(change[0]) / virgin.length + virgin.largest_y * largest_curvature(change[1], change[2], virgin.length) +
-                       virgin.largest_z * largest_curvature(change[3], change[4], virgin.length);
+  const double length = frame(element).length;
+  const double moved = std::abs(change[0]) / length + virgin.largest_y * largest_curvature(change[1], change[2], length) +
+                       virgin.largest_z * largest_curvature(change[3], change[4], length);
   // a section's own head is stale while the member is quiet, and says so
   if (now.reach > moved && now.pending() < pending_deformations) {
     note(now, next, v.data(), now.reach - moved, [&] {
@@ -210,20 +210,12 @@ void DisplacementBeams::respond_basic(int element, const Vector6& v, double part
                                       double* trial, Vector6& force, Matrix6* tangent) const {
   const Virgin& virgin = virgin_[static_cast<std::size_t>(element)];
   Vector5 load = Vector5::Zero(), deformation = v.head<5>();
+  if (loaded(element)) load = part * clamped_forces(*this->load(element), frame(element).length).head<5>();
   const bool was_quiet = quiet(element, committed);
   if (was_quiet && stay_quiet(element, deformation, committed, trial)) {
-    force.head<5>().noalias() = virgin.tangent * deformation;
-    force.head<5>() += virgin.force;
-    if (loaded(element)) force.head<5>() += part * clamped_forces(*this->load(element), virgin.length).head<5>();
-    force[5] = virgin.torsion * v[5];
-    if (!tangent) return;
-    tangent->setZero();
-    tangent->topLeftCorner<5, 5>() = virgin.tangent;
-    (*tangent)(5, 5) = virgin.torsion;
-    return;
+    return with_torsion(virgin.torsion, virgin.tangent * deformation + virgin.force + load, virgin.tangent, v[5], force, tangent);
   }
   const Element& e = element_at(element);
-  if (!e.load.empty()) load = part * clamped_forces(e.load, e.frame.length).head<5>();
   Basic basic;
   if (e.releases.any()) {
     Eigen::Map<Vector5> found(trial);
@@ -238,7 +230,7 @@ void DisplacementBeams::respond_basic(int element, const Vector6& v, double part
     basic = integrate(e, deformation, was_quiet ? with_sections(element, committed, scratch) : committed, trial, tangent != nullptr);
     basic.force += load;
   }
-  with_torsion(e, basic.force, basic.tangent, v[5], force, tangent);
+  with_torsion(e.torsion, basic.force, basic.tangent, v[5], force, tangent);
   if (!e.twists) return;
   double stiffness = 0;
   twist(e, v[5] / e.frame.length, committed, trial, force[5], stiffness);

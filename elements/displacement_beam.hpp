@@ -66,7 +66,7 @@ class DisplacementBeams : public FiberBeams {
   struct Virgin {
     bool screened = false;  // can be quiet
     double torsion = 0;     // GJ/L [N m]
-    double length = 0, largest_y = 0, largest_z = 0;  // of the fibers of all sections [m]
+    double largest_y = 0, largest_z = 0;  // of the fibers of all sections [m]
     Vector5 force = Vector5::Zero();  // basic
     Matrix5 tangent = Matrix5::Zero();
   };

@@ -61,13 +61,13 @@ void FiberBeams::prefetch(int element, const double* committed, const double* tr
   __builtin_prefetch(to + aligned_doubles, 1);
 }
 
-void FiberBeams::with_torsion(const Element& e, const Vector5& basic_force, const Matrix5& basic_tangent, double twist,
+void FiberBeams::with_torsion(double torsion, const Vector5& basic_force, const Matrix5& basic_tangent, double twist,
                               Vector6& force, Matrix6* tangent) {
-  force << basic_force, e.torsion * twist;
+  force << basic_force, torsion * twist;
   if (!tangent) return;
   tangent->setZero();
   tangent->topLeftCorner<5, 5>() = basic_tangent;
-  (*tangent)(5, 5) = e.torsion;
+  (*tangent)(5, 5) = torsion;
 }
 
 SectionResult FiberBeams::section_result(const Element& e, int point, const Vector3& deformation,

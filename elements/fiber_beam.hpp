@@ -66,7 +66,7 @@ class FiberBeams : public Members {
   virtual double torsion_stiffness(const FiberMember& member) const = 0;
   const Element& element_at(int element) const { return elements_[static_cast<std::size_t>(element)]; }
   // Beside axial force and bending, torsion.
-  static void with_torsion(const Element& element, const Vector5& basic_force, const Matrix5& basic_tangent, double twist,
+  static void with_torsion(double torsion, const Vector5& basic_force, const Matrix5& basic_tangent, double twist,
                            Vector6& force, Matrix6* tangent);
   // Section result at a point from its deformation; `history`, with_sections(), as committed.
   SectionResult section_result(const Element& element, int point, const Vector3& deformation, const double* history) const;

@@ -308,7 +308,7 @@ void ForceBeamsOf<n>::respond_basic(int element, const Vector6& v, double part, 
   find_sections(element, v.template head<basics>(), part, rounding, committed, trial);
   const Head<n> head(trial);
   if constexpr (n == 3) {
-    with_torsion(element_at(element), head.force, head.tangent, v[5], force, tangent);
+    with_torsion(element_at(element).torsion, head.force, head.tangent, v[5], force, tangent);
   } else {
     force = head.force;
     if (tangent) *tangent = head.tangent;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "base/dense_kernel.hpp"
 #include "base/parallel.hpp"
 
 namespace nsframe {
@@ -16,29 +15,19 @@ BlockOperator::BlockOperator(const SparseMatrix& matrix, const std::vector<Block
     const SparseMatrix part = extract_block(matrix, range);
     const bool crowded = 16 * part.nonZeros() > static_cast<Eigen::Index>(range.size()) * range.size();
     if (range.size() <= dense_limit && crowded) {
-      add_dense(range, MatrixX(part));
+      add({range, PaddedMatrix(MatrixX(part)), {}, {}, {}});
     } else {
-      ChunkedRows rows(part);
-      add({range, rows.padded_rows(), {}, std::move(rows)});
+      add({range, {}, ChunkedRows(part), {}, {}});
     }
   }
 }
 
 BlockOperator::BlockOperator(const std::vector<MatrixX>& matrices, const std::vector<BlockRange>& blocks) {
-  for (std::size_t i = 0; i < blocks.size(); ++i) add_dense(blocks[i], matrices[i]);
-}
-
-void BlockOperator::add_dense(const BlockRange& range, const MatrixX& matrix) {
-  Block block{range, (range.size() + dense_row_padding - 1) / dense_row_padding * dense_row_padding, {}, {}};
-  block.dense.assign(static_cast<std::size_t>(block.padded_rows) * static_cast<std::size_t>(range.size()), 0.0);
-  for (int j = 0; j < range.size(); ++j) {
-    std::copy_n(matrix.col(j).data(), range.size(), block.dense.data() + static_cast<std::ptrdiff_t>(j) * block.padded_rows);
-  }
-  add(std::move(block));
+  for (std::size_t i = 0; i < blocks.size(); ++i) add({blocks[i], PaddedMatrix(matrices[i]), {}, {}, {}});
 }
 
 void BlockOperator::add(Block block) {
-  block.padded.resize(static_cast<std::size_t>(block.padded_rows));
+  block.padded.resize(static_cast<std::size_t>(block.dense.empty() ? block.sparse.padded_rows() : block.dense.padded_rows()));
   block.padded2.resize(block.padded.size());
   size_ = std::max(size_, block.range.last);
   blocks_.push_back(std::move(block));
@@ -54,7 +43,7 @@ void BlockOperator::multiply(const VectorX& x, VectorX& y) const {
     if (block.dense.empty()) {
       block.sparse.multiply(from, to);
     } else {
-      dense_multiply(block.dense.data(), block.padded_rows, range.size(), from, to);
+      block.dense.multiply(from, to);
     }
     std::copy_n(to, range.size(), y.data() + range.first);
   });
@@ -71,7 +60,7 @@ void BlockOperator::multiply(const VectorX& x, const VectorX& x2, VectorX& y, Ve
       block.sparse.multiply(from, to);
       block.sparse.multiply(from2, to2);
     } else {
-      dense_multiply(block.dense.data(), block.padded_rows, range.size(), from, from2, to, to2);
+      block.dense.multiply(from, from2, to, to2);
     }
     std::copy_n(to, range.size(), y.data() + range.first);
     std::copy_n(to2, range.size(), y2.data() + range.first);

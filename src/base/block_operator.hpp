@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/chunked_rows.hpp"
+#include "base/padded_matrix.hpp"
 
 namespace nsframe {
 
@@ -34,13 +35,11 @@ class BlockOperator {
  private:
   struct Block {
     BlockRange range;
-    int padded_rows = 0;
-    AlignedVector dense;  // column-major, padded_rows x size; empty when sparse
+    PaddedMatrix dense;  // empty when sparse
     ChunkedRows sparse;
     mutable AlignedVector padded, padded2;  // results with the rows added
   };
   void add(Block block);
-  void add_dense(const BlockRange& range, const MatrixX& matrix);
   int size_ = 0, threads_ = 1;
   std::vector<Block> blocks_;
 };

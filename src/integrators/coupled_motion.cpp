@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/dense_kernel.hpp"
-
 namespace nsframe {
 
 namespace {
@@ -35,25 +33,6 @@ void move_dense(const DiagonalBlock& block, double s, VectorX c, VectorX b0, con
 
 }  // namespace
 
-void CoupledMotion::Product::set(const MatrixX& matrix) {
-  rows = static_cast<int>(matrix.rows());
-  columns = static_cast<int>(matrix.cols());
-  padded = (rows + dense_row_padding - 1) / dense_row_padding * dense_row_padding;
-  values.assign(static_cast<std::size_t>(padded) * static_cast<std::size_t>(columns), 0.0);
-  for (int j = 0; j < columns; ++j) std::copy_n(matrix.col(j).data(), rows, values.data() + static_cast<std::ptrdiff_t>(j) * padded);
-}
-
-void CoupledMotion::Product::apply(const double* x, VectorX& y) const {
-  y.resize(padded);
-  dense_multiply(values.data(), padded, columns, x, y.data());
-}
-
-void CoupledMotion::Product::apply(const double* x, const double* x2, VectorX& y, VectorX& y2) const {
-  y.resize(padded);
-  y2.resize(padded);
-  dense_multiply(values.data(), padded, columns, x, x2, y.data(), y2.data());
-}
-
 CoupledMotion::CoupledMotion(const ExactModes& modes) : modes_(modes) {
   for (const DampingCoupling& coupling : modes.couplings) {
     Set set;
@@ -62,12 +41,11 @@ CoupledMotion::CoupledMotion(const ExactModes& modes) : modes_(modes) {
     set.follow = static_cast<int>(coupling.rate.size());
     set.size = 2 * set.modes + set.follow;
     const MatrixX &V = coupling.form.basis, &W = coupling.form.inverse;  // rows and columns: x, z, y
-    set.basis.set(V);
-    set.inverse.set(W);
-    set.load.set(W.rightCols(set.modes));
+    set.basis = PaddedMatrix(V);
+    set.inverse = PaddedMatrix(W);
+    set.load = PaddedMatrix(W.rightCols(set.modes));
     set.displacement = V.topRows(set.modes);
-    const std::vector<int> places(coupling.places.begin(), coupling.places.begin() + set.modes);
-    const MatrixX G = modes.gap(Eigen::all, places);
+    const MatrixX G = modes.gap(Eigen::all, coupling.modal_places());
     set.gap = G * set.displacement;
     set.kick = W.rightCols(set.modes) * G.transpose();
     const auto& blocks = coupling.form.blocks;
@@ -75,7 +53,8 @@ CoupledMotion::CoupledMotion(const ExactModes& modes) : modes_(modes) {
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       set.gap_size.col(static_cast<Eigen::Index>(b)) = set.gap.middleCols(blocks[b].first, blocks[b].size).rowwise().norm();
     }
-    set.c = set.b0 = set.b1 = set.weight = VectorX::Zero(set.size);
+    set.c = set.b0 = set.b1 = set.result = VectorX::Zero(set.basis.padded_rows());
+    set.weight = VectorX::Zero(set.size);
     sets_.push_back(std::move(set));
   }
 }
@@ -87,12 +66,12 @@ void CoupledMotion::begin(const ModalState& from) {
     set.room2.resize(set.modes);
     for (int i = 0; i < set.modes + set.follow; ++i) set.room[i] = from.x[places[static_cast<std::size_t>(i)]];
     for (int i = 0; i < set.modes; ++i) set.room[set.modes + set.follow + i] = from.y[places[static_cast<std::size_t>(i)]];
-    set.inverse.apply(set.room.data(), set.c);
+    set.inverse.multiply(set.room.data(), set.c.data());
     for (int i = 0; i < set.modes; ++i) {
       set.room[i] = from.f0[places[static_cast<std::size_t>(i)]];
       set.room2[i] = from.f1[places[static_cast<std::size_t>(i)]];
     }
-    set.load.apply(set.room.data(), set.room2.data(), set.b0, set.b1);
+    set.load.multiply(set.room.data(), set.room2.data(), set.b0.data(), set.b1.data());
   }
 }
 
@@ -178,7 +157,7 @@ void CoupledMotion::move(const Set& set, const std::vector<Factors>& factors, do
 
 void CoupledMotion::write(const Set& set, const VectorX& c, ModalState& after) const {
   const auto& places = set.coupling->places;
-  set.basis.apply(c.data(), set.result);
+  set.basis.multiply(c.data(), set.result.data());
   for (int i = 0; i < set.modes + set.follow; ++i) {
     const int k = places[static_cast<std::size_t>(i)];
     after.x[k] = set.result[i];
@@ -275,9 +254,7 @@ void CoupledMotion::add_fourth(VectorX& fourth) const {
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       const DiagonalBlock& block = blocks[b];
       const Eigen::Index k = block.first, size = block.size;
-      MatrixX B = block.matrix;
-      const auto real = static_cast<double>(block.real), imag = static_cast<double>(block.imag);
-      if (!block.dense()) B = size == 1 ? MatrixX::Constant(1, 1, real) : MatrixX(Eigen::Matrix2d{{real, imag}, {-imag, real}});
+      const MatrixX B = block.full();
       const VectorX second = B * (B * set.c.segment(k, size) + set.b0.segment(k, size)) + set.b1.segment(k, size);
       most[static_cast<Eigen::Index>(b)] = block.growth * block.magnitude * block.magnitude * second.norm();
     }
@@ -315,7 +292,8 @@ namespace {
 
 // B^n exp(B s) of a block.
 MatrixX exponential_of(const DiagonalBlock& block, double s, int power) {
-  MatrixX B = block.matrix, result = MatrixX::Identity(block.size, block.size);
+  const MatrixX B = block.full();
+  MatrixX result = MatrixX::Identity(block.size, block.size);
   if (block.dense()) {
     const double parts = std::max(1.0, std::ceil(block.magnitude * s));
     MatrixX once = result, term = result;
@@ -326,14 +304,11 @@ MatrixX exponential_of(const DiagonalBlock& block, double s, int power) {
     for (double part = 0; part < parts; ++part) result = (once * result).eval();
   } else {
     const auto fade = static_cast<double>(std::exp(block.real * static_cast<long double>(s)));
-    const auto real = static_cast<double>(block.real), imag = static_cast<double>(block.imag);
     if (block.size == 1) {
-      B = MatrixX::Constant(1, 1, real);
       result *= fade;
     } else {
       const long double angle = block.imag * static_cast<long double>(s);
       const auto c = static_cast<double>(std::cos(angle)), d = static_cast<double>(std::sin(angle));
-      B = Eigen::Matrix2d{{real, imag}, {-imag, real}};
       result = fade * Eigen::Matrix2d{{c, d}, {-d, c}};
     }
   }
@@ -358,8 +333,7 @@ std::array<MatrixX, 6> CoupledMotion::moments() const {
   for (MatrixX& moment : moments) moment = MatrixX::Zero(modes_.pairs(), modes_.pairs());
   for (const Set& set : sets_) {
     const DampingCoupling& k = *set.coupling;
-    const std::vector<int> places(k.places.begin(), k.places.begin() + set.modes);
-    const MatrixX G = modes_.gap(Eigen::all, places);
+    const MatrixX G = modes_.gap(Eigen::all, k.modal_places());
     MatrixX before = MatrixX::Zero(set.modes, G.rows()), now = G.transpose(), z = MatrixX::Zero(set.follow, G.rows());
     for (std::size_t n = 1; n < moments.size(); ++n) {
       moments[n] += G * now;

@@ -7,6 +7,7 @@
 #include <array>
 #include <complex>
 
+#include "base/padded_matrix.hpp"
 #include "integrators/exact_modes.hpp"
 
 namespace nsframe {
@@ -61,18 +62,10 @@ class CoupledMotion {
     double s = -1;
     std::vector<Factors> blocks;
   };
-  // Rows padded for dense_multiply().
-  struct Product {
-    int rows = 0, padded = 0, columns = 0;
-    std::vector<double> values;
-    void set(const MatrixX& matrix);
-    void apply(const double* x, VectorX& y) const;
-    void apply(const double* x, const double* x2, VectorX& y, VectorX& y2) const;
-  };
   struct Set {
     const DampingCoupling* coupling = nullptr;
     int modes = 0, follow = 0, size = 0;         // n, m, 2 n + m
-    Product basis, inverse, load;                // (x, z, y) from c, c from (x, z, y), c from f
+    PaddedMatrix basis, inverse, load;           // (x, z, y) from c, c from (x, z, y), c from f
     MatrixX displacement;                        // x from c
     MatrixX gap, gap_size;                       // of pairs from c; its norms by blocks
     MatrixX kick;                                // c of a unit impulse, a column a pair

@@ -7,6 +7,7 @@
 #include "base/errors.hpp"
 #include "contact/impact_law.hpp"
 #include "integrators/event_flow.hpp"
+#include "integrators/impact_rounds.hpp"
 
 namespace nsframe {
 
@@ -15,11 +16,6 @@ namespace {
 // An approach slower than this part of the fastest one so far ends an accumulation of impacts, if the bounce would rise by less than
 // that part of what the gap is made of.
 constexpr double slowest_approach = 1e-8, least_bounce = 1e-13;
-// Impacts at one time one after another; then all touching pairs together, and plastically, end them.
-constexpr int most_rounds = 20000;
-// Rounds between two looks for a sequence that repeats itself, smaller, every so many rounds.
-constexpr int looks = 120, period = 12;
-constexpr double same = 1e-9;
 
 // How far a gap opens that leaves with this rate under this acceleration [m].
 double bounce(double rate, double acceleration) {
@@ -79,29 +75,15 @@ VectorX EventFlow::accelerations() const {
 void EventFlow::collide(const System& system, double time, double remaining, StepResult& result) {
   if (modes_.pairs() == 0) return;
   rate_ = modes_.gap * state_.y;
-  VectorX before;
-  bool ends = false;  // the limit of infinitely many impacts: theory.md (172)
-  for (int round = 0; round <= most_rounds; ++round) {
-    const bool last = ends || round == most_rounds;
-    if (!collide_once(system, time, remaining, last, result)) break;
-    if (ends) ++result.accumulations.ended;
-    if (last && !ends) ++result.accumulations.plastic;
-    if (last) break;
-    if (round > 0 && round % looks == 0) before = rate_;
-    if (round > looks && round % looks == period) ends = shrinks(before);
-  }
+  collide_in_rounds(rate_, result.accumulations, [&](bool last) { return collide_once(system, time, remaining, last, result); }, [&] {
+    std::vector<int> touching;
+    for (int c = 0; c < modes_.pairs(); ++c) {
+      if (contact_.touching[static_cast<std::size_t>(c)] || std::binary_search(contact_.closed.begin(), contact_.closed.end(), c)) touching.push_back(c);
+    }
+    return touching;
+  });
   settle(system, time, result);
   disturbed_ = true;
-}
-
-bool EventFlow::shrinks(const VectorX& before) const {
-  std::vector<int> touching;
-  for (int c = 0; c < modes_.pairs(); ++c) {
-    if (contact_.touching[static_cast<std::size_t>(c)] || std::binary_search(contact_.closed.begin(), contact_.closed.end(), c)) touching.push_back(c);
-  }
-  const VectorX was = before(touching), is = rate_(touching);
-  const double factor = is.dot(was) / was.squaredNorm();
-  return factor > 0 && factor < 1 && (is - factor * was).norm() <= same * was.norm();
 }
 
 bool EventFlow::collide_once(const System& system, double time, double remaining, bool last, StepResult& result) {

@@ -60,8 +60,6 @@ class EventFlow {
   // Impacts at this time, until no gap that is zero closes any more.
   void collide(const System& system, double time, double remaining, StepResult& result);
   bool collide_once(const System& system, double time, double remaining, bool last, StepResult& result);
-  // Whether the gap rates of what touches are those of some rounds ago, all times one factor below 1.
-  bool shrinks(const VectorX& before) const;
   // Which of the touching pairs with no gap rate stay closed.
   void settle(const System& system, double time, StepResult& result);
   void remove_drift();

@@ -184,8 +184,7 @@ void EventSplit::check_gaps(const System& system, double time, double h) const {
 void EventSplit::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result = StepResult{};
   result.least_gap = std::numeric_limits<double>::infinity();
-  const bool fresh = last_displacement_.size() != committed.displacement.size() || last_displacement_ != committed.displacement ||
-                     last_velocity_ != committed.velocity;
+  const bool fresh = !same_bits(last_displacement_, committed.displacement) || !same_bits(last_velocity_, committed.velocity);
   last_displacement_.resize(0);  // a step that fails leaves contact somewhere: the next one then begins afresh
   now_ = {committed.displacement, committed.velocity, committed.internal_force, fresh ? VectorX() : std::move(now_.a), {}};
   step_impulse_.setZero();

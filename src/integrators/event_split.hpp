@@ -59,8 +59,6 @@ class EventSplit : public Scheme {
   // Impacts at this time, until no gap that is zero closes any more; then which pairs stay closed (event_split_contact.cpp).
   void collide(const System& system, double time, double remaining, StepResult& result);
   bool collide_once(const System& system, double time, double remaining, bool last, StepResult& result);
-  // Whether the rates of all pairs that touch are those of `before` but for a factor below 1.
-  bool shrinks(const VectorX& before) const;
   // Touching pairs that a law with restitution would let bounce ever faster from here on, too fast for the step.
   std::vector<int> accumulating(const System& system, const std::vector<int>& pairs) const;
   void settle(const System& system, double time, double remaining, StepResult& result);
@@ -99,7 +97,7 @@ class EventSplit : public Scheme {
   VectorX gap_, rate_;                  // rates only of pairs that touch, as the flow begins with them
   std::vector<Contact> contacts_;       // of the factorization
   long contacts_factored_ = -1;
-  MatrixX delassus_, response_, second_response_;  // of gather(): momentum' jump, H J^-1 H', H J^-1 (M + a C) J^-1 H'
+  MatrixX delassus_, second_response_;  // of gather(): momentum' jump, H J^-1 (M + a C) J^-1 H'
   VectorX contact_impulse_, step_impulse_;  // of sustained contacts since they closed; of all pairs in the step [N s]
   double largest_approach_ = 0;         // [m/s]
   VectorX last_displacement_, last_velocity_;

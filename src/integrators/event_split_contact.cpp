@@ -8,15 +8,12 @@
 #include "contact/contact_problem.hpp"
 #include "contact/impact_law.hpp"
 #include "integrators/event_split.hpp"
+#include "integrators/impact_rounds.hpp"
 
 namespace nsframe {
 
 namespace {
 
-constexpr int most_impact_rounds = 20000;     // impacts at one time one after another; then all touching pairs end them plastically
-// Impacts between two looks for a sequence that repeats itself, smaller, every so many of them (theory.md, 172).
-constexpr int rounds_between_looks = 120, rounds_of_period = 12;
-constexpr double repeated = 1e-9;
 constexpr double shortest_tail = 0.1;  // of the longest part: ever faster bounces that end within it are one plastic impact
 
 }  // namespace
@@ -35,7 +32,7 @@ const EventSplit::Contact& EventSplit::contact(const System& system, int pair) {
   if (contacts_factored_ != parts_.matrix.factorizations()) {
     contacts_.assign(static_cast<std::size_t>(system.contacts().size()), {});
     contacts_factored_ = parts_.matrix.factorizations();
-    for (MatrixX* known : {&delassus_, &response_, &second_response_}) {
+    for (MatrixX* known : {&delassus_, &second_response_}) {
       known->setConstant(system.contacts().size(), system.contacts().size(), std::numeric_limits<double>::quiet_NaN());
     }
   }
@@ -77,7 +74,9 @@ MatrixX EventSplit::delassus(const System& system, const std::vector<int>& pairs
 MatrixX EventSplit::opening(const System& system, const std::vector<int>& pairs, double s) {
   for (const int c : pairs) contact(system, c);
   const Contacts& contacts = system.contacts();
-  const MatrixX first = gather(response_, pairs, [&](int a, int b) { return contacts.jacobian.row(a).dot(parts_.matrix.response(contacts, b)); });
+  const auto count = static_cast<Eigen::Index>(pairs.size());
+  MatrixX first(count, count);
+  for (Eigen::Index b = 0; b < count; ++b) first.col(b) = parts_.matrix.rates_by(contacts, pairs[static_cast<std::size_t>(b)])(pairs);
   const MatrixX second = gather(second_response_, pairs, [&](int a, int b) { return contact(system, b).first.dot(parts_.matrix.response(contacts, a)); });
   const auto [once, again] = flow_.response(s);
   return s * s * (once * first - again * second);
@@ -87,28 +86,14 @@ void EventSplit::collide(const System& system, double time, double remaining, St
   for (int c = 0; c < system.contacts().size(); ++c) {
     if (is_closed(c) || touching_[static_cast<std::size_t>(c)]) rate_[c] = contact(system, c).momentum.dot(now_.v);
   }
-  VectorX before;
-  bool ends = false;
-  for (int round = 0; round <= most_impact_rounds; ++round) {
-    const bool last = ends || round == most_impact_rounds;
-    if (!collide_once(system, time, remaining, last, result)) break;
-    if (ends) ++result.accumulations.ended;
-    if (last && !ends) ++result.accumulations.plastic;
-    if (last) break;
-    if (round > 0 && round % rounds_between_looks == 0) before = rate_;
-    if (round > rounds_between_looks && round % rounds_between_looks == rounds_of_period) ends = shrinks(before);
-  }
+  collide_in_rounds(rate_, result.accumulations, [&](bool last) { return collide_once(system, time, remaining, last, result); }, [&] {
+    std::vector<int> touching;
+    for (int c = 0; c < static_cast<int>(touching_.size()); ++c) {
+      if (is_closed(c) || touching_[static_cast<std::size_t>(c)]) touching.push_back(c);
+    }
+    return touching;
+  });
   settle(system, time, remaining, result);
-}
-
-bool EventSplit::shrinks(const VectorX& before) const {
-  std::vector<int> together;
-  for (int c = 0; c < static_cast<int>(touching_.size()); ++c) {
-    if (is_closed(c) || touching_[static_cast<std::size_t>(c)]) together.push_back(c);
-  }
-  const VectorX was = before(together), is = rate_(together);
-  const double factor = is.dot(was) / was.squaredNorm();
-  return factor > 0 && factor < 1 && (is - factor * was).norm() <= repeated * was.norm();
 }
 
 std::vector<int> EventSplit::accumulating(const System& system, const std::vector<int>& pairs) const {

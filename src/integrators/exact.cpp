@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
-
 #include "base/errors.hpp"
 
 namespace nsframe {
@@ -18,10 +16,6 @@ const System& linear_only(const System& system, const Location& at) {
   }
   diagnostics.throw_if_any();
   return system;
-}
-
-bool same_bits(const VectorX& a, const VectorX& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
 }
 
 }  // namespace

@@ -111,8 +111,7 @@ void find_contacts(const System& system, const std::vector<BlockModes>& blocks, 
   }
   for (const DampingCoupling& coupling : modes.couplings) {
     const auto count = coupling.square.size();
-    const std::vector<int> places(coupling.places.begin(), coupling.places.begin() + count);
-    const MatrixX G = modes.gap(Eigen::all, places), from = G * coupling.form.basis.topRows(count), to = coupling.form.inverse.rightCols(count) * G.transpose();
+    const MatrixX G = modes.gap(Eigen::all, coupling.modal_places()), from = G * coupling.form.basis.topRows(count), to = coupling.form.inverse.rightCols(count) * G.transpose();
     for (const DiagonalBlock& block : coupling.form.blocks) {
       for (int c = 0; c < pairs; ++c) {  // its share of the pair's 1 / mass
         const double share = block.magnitude * from.row(c).segment(block.first, block.size).norm() * to.col(c).segment(block.first, block.size).norm();

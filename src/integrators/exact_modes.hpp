@@ -20,6 +20,7 @@ struct DampingCoupling {
   MatrixX damping, coupling;          // D (n x n) [1/s], E (n x m)
   VectorX rate, rest;                 // T [1/s]; z of the rest under static loads
   BlockDiagonal form;                 // of the matrix of (x, z, y)
+  std::vector<int> modal_places() const { return {places.begin(), places.begin() + square.size()}; }  // of the n modes
   VectorX complex_frequency, complex_damping;  // |lambda| [rad/s] and -Re lambda / |lambda| of the n modes' complex counterparts
 };
 

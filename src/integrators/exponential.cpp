@@ -11,7 +11,7 @@ namespace nsframe {
 
 namespace {
 
-constexpr int most_rest_evaluations = 40; // until what has no mass rests
+constexpr int most_rest_evaluations = 40;  // until what has no mass rests
 constexpr double follow_up = 0.1;        // part of its motion over a step that may be left to the next one
 constexpr double largest_rest = 1e-4;    // of the largest displacement, that may be left
 constexpr double slow_following = 0.3;   // memory from which a tangent is worth its factorization
@@ -176,8 +176,7 @@ bool Exponential::advance(System& system, double time, double s, bool starting, 
 void Exponential::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result = StepResult{};
   result.least_gap = std::numeric_limits<double>::infinity();
-  const bool fresh = last_displacement_.size() != committed.displacement.size() || last_displacement_ != committed.displacement ||
-                     last_velocity_ != committed.velocity;
+  const bool fresh = !same_bits(last_displacement_, committed.displacement) || !same_bits(last_velocity_, committed.velocity);
   last_displacement_.resize(0);  // a step that fails leaves the flow somewhere: the next one then begins afresh
   if (fresh) start(system, committed);
   flow_.clear_impulse();

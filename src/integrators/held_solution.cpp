@@ -16,10 +16,7 @@ void HeldSolution::hold(const Contacts& contacts, const std::vector<int>& pairs)
   const auto count = static_cast<Eigen::Index>(pairs_.size());
   if (count == 0) return;
   MatrixX W(count, count);
-  for (Eigen::Index b = 0; b < count; ++b) {
-    const VectorX& response = matrix_.response(contacts, pairs_[static_cast<std::size_t>(b)]);
-    for (Eigen::Index a = 0; a < count; ++a) W(a, b) = contacts.jacobian.row(pairs_[static_cast<std::size_t>(a)]).dot(response);
-  }
+  for (Eigen::Index b = 0; b < count; ++b) W.col(b) = matrix_.rates_by(contacts, pairs_[static_cast<std::size_t>(b)])(pairs_);
   scale_ = W.diagonal().cwiseSqrt().cwiseInverse();
   const MatrixX scaled = scale_.asDiagonal() * W * scale_.asDiagonal();
   cholesky_.compute(scaled);

@@ -94,9 +94,8 @@ void MoreauJean::solve_contact(const System& system, State& trial, StepResult& r
   ContactProblem problem{MatrixX(count, count), VectorX(count)};
   for (Eigen::Index b = 0; b < count; ++b) {
     const int pair = active_[static_cast<std::size_t>(b)];
-    const VectorX& rates = matrix_.rates_by(contacts, pair);
     problem.rhs[b] = contacts.jacobian.row(pair).dot(trial.velocity);
-    for (Eigen::Index a = 0; a < count; ++a) problem.delassus(a, b) = rates[active_[static_cast<std::size_t>(a)]];
+    problem.delassus.col(b) = matrix_.rates_by(contacts, pair)(active_);
   }
   problem.rhs -= target_rates(system, problem.delassus);
   const ContactOptions contact_options{options_.contact_tolerance, options_.max_contact_sweeps};

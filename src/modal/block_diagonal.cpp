@@ -270,6 +270,12 @@ void fill(const LongMatrix& A, BlockDiagonal& form) {
 
 }  // namespace
 
+MatrixX DiagonalBlock::full() const {
+  if (dense()) return matrix;
+  const auto re = static_cast<double>(real), im = static_cast<double>(imag);
+  return size == 1 ? MatrixX::Constant(1, 1, re) : MatrixX(Eigen::Matrix2d{{re, im}, {-im, re}});
+}
+
 BlockDiagonal block_diagonal_form(const LongMatrix& A) {
   const MatrixX rounded = A.cast<double>();
   std::vector<Cluster> clusters = eigenvector_clusters(rounded);

@@ -19,6 +19,7 @@ struct DiagonalBlock {
   double growth = 1;              // bound on |exp(B t)|, t >= 0, when no eigenvalue lies right of the imaginary axis
 
   bool dense() const { return matrix.size() > 0; }
+  MatrixX full() const;           // B
 };
 
 struct BlockDiagonal {

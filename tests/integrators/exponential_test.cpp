@@ -57,7 +57,7 @@ TEST_CASE("exponential: fiber members with DOFs without mass, displacement- and 
       CHECK(difference(completed(d, by_scheme("exponential", 2e-4, 0.1)), fine) < 5e-3 * size);  // four times the step
       CHECK(fine.summary.worst_balance_error < 1e-5);
       // a second evaluation only where what has no mass has not come to rest
-      CHECK(fine.summary.evaluations < 2250);
+      CHECK(fine.summary.evaluations <= 2200);
     }
   }
 }

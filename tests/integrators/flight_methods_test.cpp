@@ -32,6 +32,13 @@ GeneralizedAlphaParameters parameters(const std::string& integrator, double rho)
   return integrator == "alpha-os" ? GeneralizedAlphaParameters::hilber_hughes_taylor(rho) : GeneralizedAlphaParameters::chung_hulbert(rho);
 }
 
+void damp_all_modes(Scene& scene) {
+  for (StructureDescription& structure : scene.model.structures) {
+    structure.damping.named_ratios.clear();
+    structure.damping.ratios.assign(30, 0.02);
+  }
+}
+
 double slope_over(double coarse, double fine, double ratio) { return std::log(coarse / fine) / std::log(ratio); }
 
 }  // namespace
@@ -168,10 +175,7 @@ TEST_CASE("event-split: generalized-alpha and alpha-OS on yielding masses and fi
 
 TEST_CASE("event-split: second order over the first pounding of the two-story pair, elastic with all modes damped, and closer than Moreau-Jean") {
   Scene scene = example_scene("two_story_elastic");
-  for (StructureDescription& structure : scene.model.structures) {
-    structure.damping.named_ratios.clear();
-    structure.damping.ratios.assign(30, 0.02);
-  }
+  damp_all_modes(scene);
   const Model model = model_of(scene);
   const auto at_end = [&](AnalysisOptions o) {
     o.duration = 2.6;
@@ -196,12 +200,7 @@ TEST_CASE("the two-story pair multiplies a change of its gaps a thousandfold in 
   const auto growth = [](bool all_damped, double change) {
     const auto at_end = [&](double more) {
       Scene scene = example_scene("two_story_elastic");
-      if (all_damped) {
-        for (StructureDescription& structure : scene.model.structures) {
-          structure.damping.named_ratios.clear();
-          structure.damping.ratios.assign(30, 0.02);
-        }
-      }
+      if (all_damped) damp_all_modes(scene);
       for (double& gap : scene.model.contacts[0].gap) gap += more;
       const Model model = model_of(scene);
       Simulation simulation(model, by_scheme("exact", 5e-3, 6));

@@ -15,15 +15,7 @@ namespace {
 MatrixX matrix_of(const BlockDiagonal& form) {
   MatrixX B = MatrixX::Zero(form.basis.rows(), form.basis.cols());
   for (const DiagonalBlock& block : form.blocks) {
-    auto part = B.block(block.first, block.first, block.size, block.size);
-    const auto real = static_cast<double>(block.real), imag = static_cast<double>(block.imag);
-    if (block.dense()) {
-      part = block.matrix;
-    } else if (block.size == 1) {
-      part(0, 0) = real;
-    } else {
-      part << real, imag, -imag, real;
-    }
+    B.block(block.first, block.first, block.size, block.size) = block.full();
   }
   return B;
 }
@@ -35,7 +27,12 @@ LongMatrix turned(const MatrixX& J, unsigned seed) {
   return (Q * J * Q.transpose()).cast<long double>();
 }
 
-void check_form(const LongMatrix& A, const BlockDiagonal& form) {
+// The form of a matrix similar to J.
+void check_form(const MatrixX& J, unsigned seed, std::size_t blocks, double condition) {
+  const LongMatrix A = turned(J, seed);
+  const BlockDiagonal form = block_diagonal_form(A);
+  CHECK(form.blocks.size() == blocks);
+  CHECK(form.condition < condition);
   const auto size = static_cast<double>(A.norm());
   const MatrixX rounded = A.cast<double>();
   CHECK((rounded * form.basis - form.basis * matrix_of(form)).norm() <= 1e-14 * size * form.basis.norm());
@@ -50,11 +47,7 @@ TEST_CASE("block-diagonal form: simple eigenvalues, real and complex, have block
   J.block(2, 2, 2, 2) << -0.5, 12, -12, -0.5;
   J(4, 4) = -3;
   J(0, 2) = J(1, 4) = 2;  // not normal
-  const LongMatrix A = turned(J, 3);
-  const BlockDiagonal form = block_diagonal_form(A);
-  CHECK(form.blocks.size() == 3);
-  CHECK(form.condition < 3);
-  check_form(A, form);
+  check_form(J, 3, 3, 3);
 }
 
 TEST_CASE("block-diagonal form: Jordan blocks, exact and nearly so, real and complex, are dense blocks with a good basis") {
@@ -67,13 +60,7 @@ TEST_CASE("block-diagonal form: Jordan blocks, exact and nearly so, real and com
     complex.block(2, 2, 2, 2) << -1 - off, 7, -7, -1 - off;
     complex(0, 2) = complex(1, 3) = complex(2, 4) = 1;
     complex(4, 4) = -1;
-    for (const MatrixX& J : {real, complex}) {
-      const LongMatrix A = turned(J, 5);
-      const BlockDiagonal form = block_diagonal_form(A);
-      CHECK(form.blocks.size() == 2);
-      CHECK(form.condition < 100);
-      check_form(A, form);
-    }
+    for (const MatrixX& J : {real, complex}) check_form(J, 5, 2, 100);
   }
 }
 
