@@ -185,7 +185,7 @@ TEST_CASE("event-split: yielding masses and fiber members, of second order acros
       const Run ours = completed(d, by_scheme("event-split", dt / parts, duration));
       errors.push_back(difference(ours, fine));
       CHECK(ours.summary.worst_balance_error < 1e-6);
-      CHECK(ours.summary.max_penetration < 1e-9);
+      CHECK(ours.summary.max_penetration < 1e-12);
     }
     CAPTURE(errors[0]);
     CHECK(errors[0] < most);
@@ -240,7 +240,7 @@ TEST_CASE("event-split: converges to exact on random rows of two to six masses o
       CAPTURE(ours.summary.stop_reason);
       REQUIRE(ours.summary.completed);
       errors.push_back(difference(exact, ours));
-      CHECK(ours.summary.max_penetration < 1e-9);
+      CHECK(ours.summary.max_penetration < 1e-12);
       CHECK(ours.summary.energy.contact > -1e-9 * energy);
       CHECK(ours.summary.worst_balance_error < 1e-7);
       CHECK(ours.summary.accumulations.plastic == 0);
