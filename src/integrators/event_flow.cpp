@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "base/errors.hpp"
 
 namespace nsframe {
@@ -163,7 +164,7 @@ VectorX EventFlow::compliant_forces(const VectorX& gap) const {
   const std::vector<int> springs = closed_pairs(true);
   if (springs.empty()) return forces;
   const MatrixX Y = modes_.compliance(springs, springs);
-  const VectorX closing = -gap(springs), solution = Eigen::CompleteOrthogonalDecomposition<MatrixX>(Y).solve(closing);
+  const VectorX closing = -gap(springs), solution = RankRevealing<double>(Y, machine_epsilon * static_cast<double>(Y.rows())).solve(closing);
   forces(springs) = solution;
   return forces;
 }
