@@ -139,7 +139,6 @@ void Exponential::start(System& system, const State& committed) {
   padded_.setZero();
   memory_ = 1;
   massless_stiffness_.resize(0, 0);
-  active_ = false;
   follow_ = VectorX::Zero(modes.dofs);
   if (modes.massless == 0) return;
   evaluate(system, now_.massless, committed.history, history_);
@@ -169,7 +168,7 @@ bool Exponential::advance(System& system, double time, double s, bool starting, 
   result.strain += massless_work;
   result.input += massless_work;
   std::swap(now_, next_);
-  if (error < 0.125 && level_ > (active_ ? active_level_ : least_level_)) --level_;
+  if (error < 0.125 && level_ > least_level_) --level_;
   return true;
 }
 
@@ -203,7 +202,6 @@ void Exponential::make_parts(System& system, const State& committed, State& tria
   const VectorX* from = &committed.history;
   VectorX *to = &trial.history, *other = &history_;
   for (long done = 0; done < whole;) {
-    level_ = std::max(level_, active_ ? active_level_ : least_level_);
     long part = whole >> level_;
     while (done % part != 0) part /= 2;
     const double time = committed.time + h * static_cast<double>(done) / whole, s = h * static_cast<double>(part) / whole;
@@ -227,7 +225,6 @@ void Exponential::save(Snapshot& snapshot) const {
   snapshot.put("exponential.memory", memory_);
   snapshot.put("exponential.massless_stiffness", VectorX(massless_stiffness_.reshaped()));
   snapshot.put("exponential.level", static_cast<double>(level_));
-  snapshot.put("exponential.active", active_ ? 1.0 : 0.0);
   snapshot.put("exponential.displacement", last_displacement_);
   snapshot.put("exponential.velocity", last_velocity_);
 }
@@ -250,7 +247,6 @@ void Exponential::restore(System& system, const Snapshot& snapshot) {
     massless_tangent_.compute(massless_stiffness_);
   }
   level_ = static_cast<int>(snapshot.number("exponential.level"));
-  active_ = snapshot.number("exponential.active") > 0;
   project(now_);
   history_ = system.assembler.virgin_history();
   follow_ = VectorX::Zero(modes.dofs);
@@ -265,8 +261,7 @@ std::vector<std::string> Exponential::describe() const {
                                 unstable_ / (2 * pi)));
   }
   if (options_.accuracy > 0) {
-    lines.push_back(fmt::format("parts of steps by an error estimate, accuracy {:g} of the peak; at least {} once something yields", options_.accuracy,
-                                1 << active_level_));
+    lines.push_back(fmt::format("parts of steps by an error estimate, accuracy {:g} of the peak", options_.accuracy));
   }
   return lines;
 }

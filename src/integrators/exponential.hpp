@@ -48,9 +48,9 @@ class Exponential : public Scheme {
   EventFlow flow_;
   BlockOperator stiffness_;             // K
   int least_level_ = 0;                 // stable parts of dt: dt / 2^level
-  int active_level_ = 0;                // parts that sample all modes, once something has yielded
   double unstable_ = 0;                 // frequency of the mode that wants least_level_ [rad/s]
   VectorX flexibility_;                 // 1 / w^2 of oscillators [s2]
+  VectorX inverse_frequency_;           // 1 / w of oscillators, at most 1 s
   VectorX mode_size_;                   // largest entry of every mode
   VectorX mode_share_;                  // of nonlinear elements in the stiffness of every mode
   double scale_ = 0;                    // displacement under static loads and peak ground accelerations, statically [m]
@@ -62,7 +62,6 @@ class Exponential : public Scheme {
   Eigen::PartialPivLU<MatrixX> massless_tangent_;
   double peak_ = 0;                     // largest displacement so far [m]
   int level_ = 0;
-  bool active_ = false;                 // something has yielded
   VectorX last_displacement_, last_velocity_;
   // work space
   Residual next_;
