@@ -15,16 +15,16 @@ from pair import DAMPED
 PAPER, HALF = "theta = 1, gamma = 1.5", "theta = 0.5, gamma = 0.5"
 SOFT, STIFF = "penalty 1e+08 N/m", "penalty 1e+09 N/m"
 LABELS = {"exact": "`exact`, kept each step", "exponential": "`exponential`", "exponential, accuracy 1e-3": "`exponential`, accuracy 1e-3",
-          "exponential, accuracy 1e-4": "`exponential`, accuracy 1e-4", PAPER: "`moreau-jean`, θ = 1, γ = 3/2", HALF: "`moreau-jean`, θ = γ = ½",
+          "exponential, accuracy 5e-4": "`exponential`, accuracy 5e-4", "exponential, accuracy 1e-4": "`exponential`, accuracy 1e-4", PAPER: "`moreau-jean`, θ = 1, γ = 3/2", HALF: "`moreau-jean`, θ = γ = ½",
           SOFT: "OpenSees, penalty 1e8 N/m", STIFF: "OpenSees, penalty 1e9 N/m"}
-FIBER_ROWS = [("exponential", 5e-3), ("exponential", 1e-3), ("exponential, accuracy 1e-3", 1e-3), ("exponential", 1e-4), (PAPER, 1e-3),
+FIBER_ROWS = [("exponential", 5e-3), ("exponential", 1e-3), ("exponential, accuracy 1e-3", 5e-3), ("exponential", 1e-4), (PAPER, 1e-3),
               (HALF, 1e-3), (HALF, 1e-4), (SOFT, 1e-3)]
 TWO_STORY = [  # case, title, setting and step [s] of every row
     ("elastic", "elastic", [("exact", 5e-3), ("exact", 1e-3), (PAPER, 1e-3), (HALF, 1e-3), (HALF, 1e-5), (SOFT, 1e-3), (STIFF, 1e-4)]),
     ("displacement-based", "Steel02 fibers, displacement-based", FIBER_ROWS),
     ("force-based", "Steel02 fibers, force-based", FIBER_ROWS),
     (DAMPED, "displacement-based, all modes damped by 2 %", [("exponential", 5e-3), ("exponential", 2e-3), ("exponential", 1e-3),
-                                                             ("exponential, accuracy 1e-4", 1e-3), (HALF, 1e-3), (HALF, 1e-4)]),
+                                                             ("exponential, accuracy 5e-4", 5e-3), ("exponential, accuracy 1e-4", 5e-3), (HALF, 1e-3), (HALF, 1e-4)]),
 ]
 
 

@@ -278,6 +278,8 @@ void EventFlow::save(Snapshot& snapshot) const {
   snapshot.put("flow.f0", state_.f0);
   snapshot.put("flow.f1", state_.f1);
   snapshot.put("flow.constant", contact_.constant);
+  snapshot.put("flow.gap", gap_);
+  snapshot.put("flow.rate", rate_);
   VectorX flags = VectorX::Zero(modes_.pairs());
   for (int c = 0; c < modes_.pairs(); ++c) flags[c] = contact_.touching[static_cast<std::size_t>(c)] ? 1 : 0;
   for (const int c : contact_.closed) flags[c] = 2;
@@ -293,6 +295,9 @@ void EventFlow::restore(const Snapshot& snapshot) {
   snapshot.read("flow.f0", state_.f0);
   snapshot.read("flow.f1", state_.f1);
   snapshot.read("flow.constant", contact_.constant);
+  gap_ = rate_ = VectorX::Zero(modes_.pairs());
+  snapshot.read("flow.gap", gap_);
+  snapshot.read("flow.rate", rate_);
   VectorX flags = VectorX::Zero(modes_.pairs());
   snapshot.read("flow.contact", flags);
   contact_.closed.clear();

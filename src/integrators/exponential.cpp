@@ -15,6 +15,7 @@ constexpr int most_rest_evaluations = 40;  // until what has no mass rests
 constexpr double follow_up = 0.1;        // part of its motion over a step that may be left to the next one
 constexpr double largest_rest = 1e-4;    // of the largest displacement, that may be left
 constexpr double slow_following = 0.3;   // memory from which a tangent is worth its factorization
+constexpr double room_to_double = 0.2;   // of the allowed error: twice the length makes at least four times of it
 constexpr double forgetting = 0.02;      // of what `memory_` lacks to 1, a step: it is measured again and again
 
 // 1 / w^2 of oscillators, also of those that damping ties together.
@@ -78,12 +79,6 @@ void Exponential::project(Residual& r) {
   padded_.setZero();
 }
 
-void Exponential::take(Residual& r) {
-  project(r);
-  r.massless.setZero(flow_.modes().dofs);
-  if (flow_.modes().massless > 0) flow_.modes().massless_flexibility.multiply(r.force, r.massless);
-}
-
 void Exponential::evaluate(System& system, const VectorX& x, const VectorX& massless, const VectorX& committed, VectorX& trial) {
   const ExactModes& modes = flow_.modes();
   const MatrixX& N = modes.massless_basis;
@@ -137,7 +132,9 @@ void Exponential::start(System& system, const State& committed) {
   now_.force.resize(internal_.size());
   stiffness_.multiply(committed.displacement, now_.force);
   now_.force = internal_ - now_.force;
-  take(now_);
+  project(now_);
+  now_.massless.setZero(modes.dofs);
+  if (modes.massless > 0) modes.massless_flexibility.multiply(now_.force, now_.massless);
   modal_rate_ = VectorX::Zero(now_.modal.size());
   massless_rate_ = VectorX::Zero(now_.massless.size());
   level_ = least_level_;
@@ -157,14 +154,14 @@ bool Exponential::advance(System& system, double time, double s, bool starting, 
                           StepResult& result) {
   force_ = {now_.modal, modal_rate_, time};
   flow_.set_force(force_);
-  const VectorX& still = expected_massless_ = now_.massless + s * massless_rate_;
+  expected_massless_ = now_.massless + s * massless_rate_;
   if (!starting && flow_.glide(system, time, s, expected_)) {
-    evaluate(system, expected_.x, still, committed, trial);
+    evaluate(system, expected_.x, expected_massless_, committed, trial);
   } else {
     flow_.copy_to(before_);
     tried_ = StepResult{};
     flow_.travel(system, time, s, starting, tried_);
-    evaluate(system, flow_.modal().x, still, committed, trial);
+    evaluate(system, flow_.modal().x, expected_massless_, committed, trial);
     flow_.go_back(before_);
   }
   const double error = error_ratio(next_.modal - now_.modal - s * modal_rate_, s);
@@ -181,7 +178,7 @@ bool Exponential::advance(System& system, double time, double s, bool starting, 
   result.strain += massless_work;
   result.input += massless_work;
   std::swap(now_, next_);
-  if (error < 0.125 && level_ > least_level_) --level_;
+  if (error < room_to_double && level_ > least_level_) --level_;
   return true;
 }
 
@@ -232,6 +229,7 @@ void Exponential::make_parts(System& system, const State& committed, State& tria
 void Exponential::save(Snapshot& snapshot) const {
   flow_.save(snapshot);
   snapshot.put("exponential.force", now_.force);
+  snapshot.put("exponential.massless", now_.massless);
   snapshot.put("exponential.modal_rate", modal_rate_);
   snapshot.put("exponential.massless_rate", massless_rate_);
   snapshot.put("exponential.peak", peak_);
@@ -245,9 +243,10 @@ void Exponential::save(Snapshot& snapshot) const {
 void Exponential::restore(System& system, const Snapshot& snapshot) {
   flow_.restore(snapshot);
   const ExactModes& modes = flow_.modes();
-  now_.force = massless_rate_ = last_displacement_ = last_velocity_ = VectorX::Zero(modes.dofs);
+  now_.force = now_.massless = massless_rate_ = last_displacement_ = last_velocity_ = VectorX::Zero(modes.dofs);
   modal_rate_ = VectorX::Zero(modes.padded);
   snapshot.read("exponential.force", now_.force);
+  snapshot.read("exponential.massless", now_.massless);
   snapshot.read("exponential.modal_rate", modal_rate_);
   snapshot.read("exponential.massless_rate", massless_rate_);
   snapshot.read("exponential.displacement", last_displacement_);
@@ -260,7 +259,7 @@ void Exponential::restore(System& system, const Snapshot& snapshot) {
     massless_tangent_.compute(massless_stiffness_);
   }
   level_ = static_cast<int>(snapshot.number("exponential.level"));
-  take(now_);
+  project(now_);
   history_ = system.assembler.virgin_history();
   follow_ = VectorX::Zero(modes.dofs);
   internal_ = VectorX::Zero(modes.dofs);

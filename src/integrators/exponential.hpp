@@ -32,8 +32,7 @@ class Exponential : public Scheme {
   struct Residual {
     VectorX force, modal, massless;     // r [N], Phi' r, F r
   };
-  void project(Residual& r);  // fills r.modal
-  void take(Residual& r);     // fills r.modal and r.massless
+  void project(Residual& r);  // fills r.modal from r.force
   void find_steps(const System& system);
   void start(System& system, const State& committed);
   // Evaluates the elements where the modes are at x, with histories; what has no mass stands where `massless` = F r wants it, and is
