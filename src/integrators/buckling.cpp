@@ -100,20 +100,22 @@ std::vector<BucklingMode> buckling_modes(System& system, const State& state, con
   VectorX history = state.history, force, loading = state.displacement, response;
   SparseMatrix K;
   Eigen::SparseLU<SparseMatrix> factor;
-  double size = 0;
+  double size = 0, reached = 0, next = 0;  // `reached`: the load factor at `loading` that K has seen
   for (int pass = 0; pass < most_passes; ++pass) {
     system.assembler.start_step(state.history, history);
     system.assembler.internal_force(loading, state.history, history, force);
     const SparseMatrix& tangent = system.assembler.tangent();
     if (pass > 1 && (tangent - K).norm() <= same_tangent * K.norm()) break;
     K = tangent;
+    reached = next;
     require_stability(K, system.assembler.symmetric());
     factor.compute(K);
     if (factor.info() != Eigen::Success) throw ConvergenceError("the stiffness is singular under the constant loads");
     response = factor.solve(pattern);
     size = response.lpNorm<Eigen::Infinity>();
     if (!(size > 0)) return {};
-    loading = state.displacement + loading_change * extent(system.model) / size * response;
+    next = loading_change * extent(system.model) / size;
+    loading = state.displacement + next * response;
   }
   const double change = relative_change * extent(system.model) / size;
   system.assembler.start_step(state.history, history);
@@ -128,7 +130,7 @@ std::vector<BucklingMode> buckling_modes(System& system, const State& state, con
     // the vector of a real eigenvalue is real but for a factor
     Eigen::Index largest_entry = 0;
     pairs.vectors.col(i).cwiseAbs().maxCoeff(&largest_entry);
-    BucklingMode mode{1 / value.real(), (pairs.vectors.col(i) / pairs.vectors(largest_entry, i)).real()};
+    BucklingMode mode{reached + 1 / value.real(), (pairs.vectors.col(i) / pairs.vectors(largest_entry, i)).real()};
     const VectorX full = system.model.dofs.expand(mode.shape);
     double translation = 0;
     for (int node = 0; node < system.model.nodes.size(); ++node) {
