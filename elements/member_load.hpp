@@ -14,10 +14,10 @@ struct MemberLoad {
     Vector3 force = Vector3::Zero();  // [N]
   };
   Vector3 uniform = Vector3::Zero();  // local axes, [N/m] of the member's length
-  std::vector<Point> points;          // local axes
+  std::vector<Point> points = {};     // local axes
   // Dead loads keep their direction: in global axes.
   Vector3 dead_uniform = Vector3::Zero();
-  std::vector<Point> dead_points;
+  std::vector<Point> dead_points = {};
 
   bool empty() const { return uniform.isZero(0) && points.empty() && !dead(); }
   bool dead() const { return !dead_uniform.isZero(0) || !dead_points.empty(); }
