@@ -73,8 +73,8 @@ PrismaticDisplacements prismatic_displacements(const MemberLoad& load, double le
       const Eigen::Matrix<double, 5, 9> s = sections_by_entries(patterns, x, length);
       const Eigen::Matrix<double, 5, 9> flexible = (weight * part * length) * (flexibility.asDiagonal() * s);
       const LoadedSection local = section_forces(load, x, length);
-      const Eigen::Matrix<double, 5, 1> by_local =
-          (Eigen::Matrix<double, 5, 1>() << local.force.x(), local.moment.z(), local.moment.y(), -local.force.y(), local.force.z()).finished();
+      Eigen::Matrix<double, 5, 1> by_local;
+      by_local << local.force.x(), local.moment.z(), local.moment.y(), -local.force.y(), local.force.z();
       sum.by_local += flexible.transpose() * by_local;
       sum.by_entries += flexible.transpose() * s;
     }

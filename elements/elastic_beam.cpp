@@ -46,8 +46,9 @@ void ElasticBeams::add(const ElementNodes& nodes, std::string id, ElasticMember 
     for (std::size_t k = 0; k < 3; ++k) deformations[k] = free_deformations(patterns[k], L, s.E * s.A, s.E * s.Iz, s.E * s.Iy);
     e.dead_deformation = by_entries(deformations);
     const auto shear = [&s](double area) { return area > 0 ? 1 / (s.G * area) : 0; };
-    e.dead_displacement = prismatic_displacements(
-        e.load, L, (Eigen::Matrix<double, 5, 1>() << 1 / (s.E * s.A), 1 / (s.E * s.Iz), 1 / (s.E * s.Iy), shear(s.Ay), shear(s.Az)).finished());
+    Eigen::Matrix<double, 5, 1> flexibility;
+    flexibility << 1 / (s.E * s.A), 1 / (s.E * s.Iz), 1 / (s.E * s.Iy), shear(s.Ay), shear(s.Az);
+    e.dead_displacement = prismatic_displacements(e.load, L, flexibility);
   }
   Members::add(nodes, std::move(id), e.frame, 0, !e.load.empty());
   elements_.push_back(std::move(e));

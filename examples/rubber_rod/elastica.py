@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The elasticas of the rubber rod, EI a'' = -(q (L - s) - F) cos a with a = 0 at the clamp and no moment at the tip, by shooting: its sag at
-rest and the force F that lifts its tip level, printed and drawn beside the nodes of a run.
+"""The elasticas of the rubber rod, EI a'' = -(q (L - s) - F) cos a with a = 0 at the clamp and no moment at the tip, by shooting: its sag
+at rest and the force F that lifts its tip level, printed and drawn beside the nodes of a run.
 
     elastica.py RUN_FOLDER -o picture.png
 
