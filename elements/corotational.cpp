@@ -213,7 +213,7 @@ void CorotationalBeam::to_global(const BeamFrame& frame, const Vector12& displac
 
 void CorotationalBeam::add_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement,
                                 const double* committed, Vector12& force, Matrix12* tangent) const {
-  if (part == 0) return;
+  if (part == 0 || (load.uniform.isZero(0) && load.points.empty())) return;
   const Motion m = find_motion(frame, displacement, committed);
   const Vector12 local = part * support_forces(load, frame.length);
   Vector12 at_nodes;
@@ -224,6 +224,44 @@ void CorotationalBeam::add_load(const BeamFrame& frame, const MemberLoad& load, 
     const Rates rates(m);
     Matrix12 k = Matrix12::Zero();
     for (int block = 0; block < 12; block += 3) k.middleRows<3>(block) = -skew(local.segment<3>(block)) * rates.axes;
+    k = rotated(k, m.axes);
+    carry_to_nodes(m, at_nodes, &k);
+    *tangent += k;
+  }
+  force += at_nodes;
+}
+
+Matrix3 CorotationalBeam::axes(const BeamFrame& frame, const Vector12& displacement, const double* committed) const {
+  return find_motion(frame, displacement, committed).axes;
+}
+
+void CorotationalBeam::add_dead_load(const BeamFrame& frame, const MemberLoad& load, double part, const DeadMoment& moment,
+                                     const Vector12& displacement, const double* committed, Vector12& force,
+                                     Matrix12* tangent) const {
+  const Motion m = find_motion(frame, displacement, committed);
+  const Rates rates(m);
+  const auto supports = [&](const Matrix3& axes) {
+    return Vector12(part * support_forces(MemberLoad{Vector3::Zero(), {}, load.dead_uniform, load.dead_points}.in(axes), frame.length));
+  };
+  Vector12 local = supports(m.axes);
+  // the moment counts displacements along the chord from where the load is without any, the supports' shares from where the
+  // stretched chord has it
+  const auto stretched = [](const Vector3& at_j) { return Vector3(0, at_j.z(), -at_j.y()); };
+  const Vector3 by_length = stretched(local.segment<3>(6)), total = moment.moment + m.elongation * by_length;
+  local += rates.axes.transpose() * total;
+  Vector12 at_nodes;
+  for (int block = 0; block < 12; block += 3) at_nodes.segment<3>(block) = m.axes.transpose() * local.segment<3>(block);
+  if (!tangent) {
+    carry_to_nodes(m, at_nodes, nullptr);
+  } else {
+    const Matrix12 mixed = rates.basic.transpose() * (moment.force_by_spin * rates.axes);
+    Matrix12x3 turned;
+    for (int i = 0; i < 3; ++i) turned.col(i) = supports(-skew(Vector3::Unit(i)) * m.axes);
+    Matrix12 k = mixed + mixed.transpose() + moment_arm_derivative(m, rates, total) + rates.axes.transpose() * (by_length * rates.length);
+    Matrix3 by_spin = moment.by_spin;
+    for (int i = 0; i < 3; ++i) by_spin.col(i) += m.elongation * stretched(turned.col(i).segment<3>(6));
+    k += (turned + rates.axes.transpose() * by_spin) * rates.axes;
+    for (int block = 0; block < 12; block += 3) k.middleRows<3>(block) -= skew(local.segment<3>(block)) * rates.axes;
     k = rotated(k, m.axes);
     carry_to_nodes(m, at_nodes, &k);
     *tangent += k;

@@ -24,9 +24,12 @@ class CorotationalBeam : public MemberGeometry {
   void to_global(const BeamFrame& frame, const Vector12& displacement, const double* committed,
                  const Vector6& basic_force, const Matrix6& basic_tangent, Vector12& force,
                  Matrix12* tangent) const override;
-  // The load turns with the member, the supports' forces act in its present axes.
+  // A load in local axes turns with the member, the supports' forces act in its present axes.
   void add_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement,
                 const double* committed, Vector12& force, Matrix12* tangent) const override;
+  Matrix3 axes(const BeamFrame& frame, const Vector12& displacement, const double* committed) const override;
+  void add_dead_load(const BeamFrame& frame, const MemberLoad& load, double part, const DeadMoment& moment,
+                     const Vector12& displacement, const double* committed, Vector12& force, Matrix12* tangent) const override;
   ElementPose pose(const BeamFrame& frame, const Vector12& displacement, const double* history) const override;
 };
 

@@ -206,11 +206,11 @@ DisplacementBeams::Basic DisplacementBeams::release(int element, Vector5& deform
   }
 }
 
-void DisplacementBeams::respond_basic(int element, const Vector6& v, double part, double, const double* committed,
+void DisplacementBeams::respond_basic(int element, const Vector6& v, const ActingLoad& acting, double, const double* committed,
                                       double* trial, Vector6& force, Matrix6* tangent) const {
   const Virgin& virgin = virgin_[static_cast<std::size_t>(element)];
   Vector5 load = Vector5::Zero(), deformation = v.head<5>();
-  if (loaded(element)) load = part * clamped_forces(*this->load(element), frame(element).length).head<5>();
+  if (loaded(element)) load = acting.part * clamped_forces(*acting.load, frame(element).length).head<5>();
   const bool was_quiet = quiet(element, committed);
   if (was_quiet && stay_quiet(element, deformation, committed, trial)) {
     return with_torsion(virgin.torsion, virgin.tangent * deformation + virgin.force + load, virgin.tangent, v[5], force, tangent);
@@ -237,7 +237,37 @@ void DisplacementBeams::respond_basic(int element, const Vector6& v, double part
   if (tangent) (*tangent)(5, 5) = stiffness;
 }
 
-std::vector<SectionResult> DisplacementBeams::basic_sections(int element, const Vector6& v, double,
+DeadResponse DisplacementBeams::dead_response(int element, const Vector6& deformation, const Vector6&, double, const Matrix3&,
+                                              const double* committed, double* trial) const {
+  const Element& e = element_at(element);
+  std::array<Vector6, 3> clamped;
+  for (std::size_t k = 0; k < 3; ++k) clamped[k] = clamped_forces(e.patterns[k], e.frame.length);
+  const Matrix6x9 all = by_entries(clamped);
+  DeadResponse response;
+  if (!e.releases.any()) {
+    response.force = all;
+    response.displacement = -all.transpose() * deformation;
+    return response;
+  }
+  const Eigen::Map<const Vector5> found(trial);
+  Vector5 v = deformation.head<5>(), released = Vector5::Zero();
+  for (int i = 0; i < 5; ++i) {
+    if (!e.releases.basic[static_cast<std::size_t>(i)]) continue;
+    v[i] = found[i];
+    released[i] = 1;
+  }
+  const Eigen::Matrix<double, 5, 9> bending = all.topRows<5>();
+  const Matrix5 k = integrate(e, v, committed, trial, true).tangent;
+  Matrix5 among_released = released.asDiagonal() * k * released.asDiagonal();
+  among_released.diagonal() += Vector5::Ones() - released;
+  const Eigen::Matrix<double, 5, 9> at_released = released.asDiagonal() * bending;
+  response.displacement = -bending.transpose() * v;
+  response.force.topRows<5>() = release_matrix<5>(e.releases, k) * bending;
+  response.displacement_by_load = at_released.transpose() * (among_released.inverse() * at_released).eval();
+  return response;
+}
+
+std::vector<SectionResult> DisplacementBeams::basic_sections(int element, const Vector6& v, const ActingLoad&,
                                                              const double* history) const {
   const Element& e = element_at(element);
   Vector5 deformation = v.head<5>();

@@ -52,10 +52,12 @@ class DisplacementBeams : public FiberBeams {
   void start_basic(int element, const double* committed, double* trial) const override;
   void prepare(const Element& element) override;
   const double* with_sections(int element, const double* history, std::vector<double>& scratch) const override;
-  void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
-                     double* trial, Vector6& force, Matrix6* tangent) const override;
-  std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
+  void respond_basic(int element, const Vector6& deformation, const ActingLoad& acting, double rounding,
+                     const double* committed, double* trial, Vector6& force, Matrix6* tangent) const override;
+  std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, const ActingLoad& acting,
                                             const double* history) const override;
+  DeadResponse dead_response(int element, const Vector6& deformation, const Vector6& force, double part, const Matrix3& axes,
+                             const double* committed, double* trial) const override;
   // With releases: the basic deformations as found last, those of the released ends in particular. Else the member's note.
   int head_size(const FiberMember& member) const override;
   double torsion_stiffness(const FiberMember& member) const override;

@@ -29,16 +29,21 @@ class ElasticBeams : public Members {
 
  protected:
   bool linear_basic() const override { return true; }
-  void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
-                     double* trial, Vector6& force, Matrix6* tangent) const override;
+  void respond_basic(int element, const Vector6& deformation, const ActingLoad& acting, double rounding,
+                     const double* committed, double* trial, Vector6& force, Matrix6* tangent) const override;
   // At the ends; of a member with a load also between them.
-  std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
+  std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, const ActingLoad& acting,
                                             const double* history) const override;
+  DeadResponse dead_response(int element, const Vector6& deformation, const Vector6& force, double part, const Matrix3& axes,
+                             const double* committed, double* trial) const override;
 
  private:
   struct Element : ElasticMember {
     Matrix6 stiffness = Matrix6::Zero();  // with releases condensed
-    Vector6 clamped = Vector6::Zero();    // basic forces of the load at no displacement, likewise
+    Vector6 clamped = Vector6::Zero();    // basic forces of the load in local axes at no displacement, likewise
+    Matrix6x9 dead_deformation = Matrix6x9::Zero();  // of the free basic system by the entries of the dead load
+    PrismaticDisplacements dead_displacement = {};
+    Vector6 clamped_by(const ActingLoad& acting) const;  // the acting part of all of the load
   };
   const Element& element_at(int element) const { return elements_[static_cast<std::size_t>(element)]; }
 

@@ -113,10 +113,11 @@ class ElementGroup {
   }
 
   // Half the change of the tangent from `displacement` - `step` to + `step` by geometry and forces alone, the material
-  // keeping its tangents at `displacement`: for linear buckling. `trial` is overwritten.
-  virtual Matrix12 geometric_change(int element, const Vector12& displacement, const Vector12& step,
+  // keeping its tangents at `displacement`: for linear buckling. The acting part of load() grows by `load_step` with the
+  // second half. `trial` is overwritten.
+  virtual Matrix12 geometric_change(int element, const Vector12& displacement, const Vector12& step, double load_step,
                                     const double* committed, double* trial) const {
-    (void)element; (void)displacement; (void)step; (void)committed; (void)trial;
+    (void)element; (void)displacement; (void)step; (void)load_step; (void)committed; (void)trial;
     return Matrix12::Zero();
   }
 

@@ -8,6 +8,8 @@ namespace nsframe {
 
 void FiberBeams::add(const ElementNodes& nodes, std::string id, FiberMember member) {
   Element e{std::move(member)};
+  e.load = kept_load(e.load, e.frame);
+  if (e.load.dead()) e.patterns = dead_patterns(e.load);
   e.torsion = e.releases.basic[5] ? 0 : torsion_stiffness(e);
   for (const auto& section : e.sections) e.twists = e.twists || (section->added[2] && !e.releases.basic[5]);
   const int own = own_offset(!e.load.empty());

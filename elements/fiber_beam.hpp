@@ -41,6 +41,7 @@ class FiberBeams : public Members {
  protected:
   struct Element : FiberMember {
     double torsion = 0;              // GJ/L over the member [N m]
+    std::array<MemberLoad, 3> patterns = {};  // of the dead load
     bool twists = false;             // some section has a law of torsion, and torsion is not released
     std::vector<int> section_begin = {};  // in the member's own history, one a point
     int points() const { return rule.size(); }

@@ -81,7 +81,7 @@ double ForceBeamsOf<n>::torsion_stiffness(const FiberMember& member) const {
 
 // Section force at a point: from the basic forces, and from the load by equilibrium.
 template <int n>
-auto ForceBeamsOf<n>::section_force(const Element& e, const Basic& basic_force, double part, int point) -> Section {
+auto ForceBeamsOf<n>::section_force(const Element& e, const Basic& basic_force, const ActingLoad& acting, int point) -> Section {
   const double x = e.position(point), L = e.frame.length;
   const auto [component, factor] = interpolation(x);
   Section force = Section::Zero();
@@ -92,13 +92,13 @@ auto ForceBeamsOf<n>::section_force(const Element& e, const Basic& basic_force, 
       if (shear_component[at] >= 0) force[shear_component[at]] += basic_force[j] / L;
     }
   }
-  if (part != 0) force += part * load_force(e, x);
+  if (acting.part != 0) force += acting.part * load_force(*acting.load, x, L);
   return force;
 }
 
 template <int n>
-auto ForceBeamsOf<n>::load_force(const Element& e, double x) -> Section {
-  const LoadedSection s = section_forces(e.load, x, e.frame.length);
+auto ForceBeamsOf<n>::load_force(const MemberLoad& load, double x, double length) -> Section {
+  const LoadedSection s = section_forces(load, x, length);
   Section force = Section::Zero();
   force.template head<3>() << s.force.x(), s.moment.z(), s.moment.y();
   if constexpr (n == 6) force.template segment<2>(3) << -s.force.y(), s.force.z();  // dM/dx
@@ -160,14 +160,14 @@ void ForceBeamsOf<n>::initialize_basic(int element, double* history) const {
     head.section_tangent(i) = tangent;
   }
   PointMatrices flexibility;
-  balance(e, Basic::Zero(), 0, true, history, flexibility);
+  balance(e, Basic::Zero(), {}, true, history, flexibility);
 }
 
 // Basic forces and element tangent from the linearised sections: sum w b'(e + f (b q + s_load - s)) = v in the directions
 // without release, q = 0 in the others. Fills f. Without `new_tangents` the section tangents are those that the element
 // tangent was found from.
 template <int n>
-void ForceBeamsOf<n>::balance(const Element& e, const Basic& deformation, double part, bool new_tangents, double* data,
+void ForceBeamsOf<n>::balance(const Element& e, const Basic& deformation, const ActingLoad& acting, bool new_tangents, double* data,
                               PointMatrices& f) const {
   Head<n> head(data);
   BasicMatrix flexibility = BasicMatrix::Zero();
@@ -179,7 +179,7 @@ void ForceBeamsOf<n>::balance(const Element& e, const Basic& deformation, double
     const double x = e.position(i), weight = e.weight(i);
     const auto [component, b] = interpolation(x);
     Section carried = head.section_force(i);
-    if (part != 0) carried -= part * load_force(e, x);
+    if (acting.part != 0) carried -= acting.part * load_force(*acting.load, x, L);
     const Section remaining = weight * (head.section_deformation(i) - f[at] * carried);
     for (int j = 0; j < basics; ++j) {
       const auto column = static_cast<std::size_t>(j);
@@ -218,7 +218,7 @@ auto ForceBeamsOf<n>::tangent_of(const Element& e, const BasicMatrix& flexibilit
 // along the correction: the work on it of the section forces in excess of the basic forces, which do none.
 template <int n>
 double ForceBeamsOf<n>::move_sections(const Element& e, const PointVectors& start, const PointVectors& correction,
-                                 double length, double part, const double* committed, double* trial) const {
+                                 double length, const ActingLoad& acting, const double* committed, double* trial) const {
   Head<n> head(trial);
   double slope = 0;
   for (int i = 0; i < e.points(); ++i) {
@@ -228,7 +228,7 @@ double ForceBeamsOf<n>::move_sections(const Element& e, const PointVectors& star
     SectionMatrix tangent;
     respond_section(e.section(i), head.section_deformation(i), e.section_history(committed, i), e.section_history(trial, i),
                     force, tangent);
-    const Section wanted = section_force(e, head.force, part, i);
+    const Section wanted = section_force(e, head.force, acting, i);
     if constexpr (n == 6) {
       for (const Eigen::Index shear : {0, 1}) {
         if (!e.section(i).added[static_cast<std::size_t>(shear)]) force[3 + shear] = wanted[3 + shear];
@@ -246,7 +246,7 @@ double ForceBeamsOf<n>::move_sections(const Element& e, const PointVectors& star
 // multipliers. Newton on that; once the constraint holds (after the first full step), corrections keep it, and a line
 // search on the energy's slope ends the circles that sharply bent laws send Newton into.
 template <int n>
-void ForceBeamsOf<n>::find_sections(int element, const Basic& deformation, double part, double rounding,
+void ForceBeamsOf<n>::find_sections(int element, const Basic& deformation, const ActingLoad& acting, double rounding,
                                const double* committed, double* trial) const {
   const Element& e = element_at(element);
   Head<n> head(trial);
@@ -254,13 +254,13 @@ void ForceBeamsOf<n>::find_sections(int element, const Basic& deformation, doubl
   PointMatrices flexibility;
   PointVectors start, correction;
   for (int iteration = 0;; ++iteration) {
-    balance(e, deformation, part, iteration > 0, trial, flexibility);
+    balance(e, deformation, acting, iteration > 0, trial, flexibility);
     // energies of the unbalanced, the changed and the whole section forces on the sections' flexibility: of the fibers, and of
     // the laws beside them, whose energy may be much larger
     Eigen::Array2d unbalances = Eigen::Array2d::Zero(), change = Eigen::Array2d::Zero(), scale = Eigen::Array2d::Zero();
     for (int i = 0; i < e.points(); ++i) {
       const auto at = static_cast<std::size_t>(i);
-      const Section wanted = section_force(e, head.force, part, i);
+      const Section wanted = section_force(e, head.force, acting, i);
       const Section changed = wanted - before.section_force(i), out_of_balance = wanted - head.section_force(i);
       const SectionMatrix& f = flexibility[at];
       start[at] = head.section_deformation(i);
@@ -291,21 +291,21 @@ void ForceBeamsOf<n>::find_sections(int element, const Basic& deformation, doubl
     if (!std::isfinite(unbalance) || iteration >= max_section_iterations) {
       throw ConvergenceError(fmt::format("force-based element '{}' does not find its section forces", id(element)));
     }
-    double slope = move_sections(e, start, correction, 1.0, part, committed, trial);
+    double slope = move_sections(e, start, correction, 1.0, acting, committed, trial);
     double low = 0, high = 1;
     if (iteration == 0 || slope <= 0.5 * unbalance) continue;
     for (int k = 0; k < max_line_search && std::abs(slope) > 0.5 * unbalance; ++k) {
       const double middle = 0.5 * (low + high);
-      slope = move_sections(e, start, correction, middle, part, committed, trial);
+      slope = move_sections(e, start, correction, middle, acting, committed, trial);
       (slope > 0 ? high : low) = middle;
     }
   }
 }
 
 template <int n>
-void ForceBeamsOf<n>::respond_basic(int element, const Vector6& v, double part, double rounding, const double* committed,
+void ForceBeamsOf<n>::respond_basic(int element, const Vector6& v, const ActingLoad& acting, double rounding, const double* committed,
                                     double* trial, Vector6& force, Matrix6* tangent) const {
-  find_sections(element, v.template head<basics>(), part, rounding, committed, trial);
+  find_sections(element, v.template head<basics>(), acting, rounding, committed, trial);
   const Head<n> head(trial);
   if constexpr (n == 3) {
     with_torsion(element_at(element).torsion, head.force, head.tangent, v[5], force, tangent);
@@ -316,12 +316,47 @@ void ForceBeamsOf<n>::respond_basic(int element, const Vector6& v, double part, 
 }
 
 template <int n>
+DeadResponse ForceBeamsOf<n>::dead_response(int element, const Vector6&, const Vector6& force, double part, const Matrix3& axes,
+                                            const double*, double* trial) const {
+  const Element& e = element_at(element);
+  const Head<n> head(trial);
+  const MemberLoad load = e.load.in(axes);
+  DeadResponse response;
+  Eigen::Matrix<double, basics, 9> mixed = Eigen::Matrix<double, basics, 9>::Zero();
+  for (int i = 0; i < e.points(); ++i) {
+    const double x = e.position(i), L = e.frame.length;
+    Eigen::Matrix<double, n, 9> s = Eigen::Matrix<double, n, 9>::Zero();
+    constexpr int known = n == 3 ? 3 : 5;
+    s.template topRows<known>() = sections_by_entries(e.patterns, x, L).template topRows<known>();
+    const SectionMatrix f = section_flexibility(e.section(i), head.section_tangent(i));
+    const Section wanted = section_force(e, force.template head<basics>(), {part, &load}, i);
+    const Section deformation = head.section_deformation(i) + f * (wanted - head.section_force(i));
+    const Eigen::Matrix<double, n, 9> flexible = e.weight(i) * (f * s);
+    response.displacement += e.weight(i) * (s.transpose() * deformation);
+    response.displacement_by_load += s.transpose() * flexible;
+    const auto [component, b] = interpolation(x);
+    for (int j = 0; j < basics; ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      mixed.row(j) += b[at] * flexible.row(component[at]);
+      if constexpr (n == 6) {
+        if (shear_component[at] >= 0) mixed.row(j) += flexible.row(shear_component[at]) / L;
+      }
+    }
+  }
+  const Eigen::Matrix<double, basics, 9> by_load = -(head.tangent * mixed);
+  response.force.template topRows<basics>() = by_load;
+  response.displacement_by_load += mixed.transpose() * by_load;
+  return response;
+}
+
+template <int n>
 bool ForceBeamsOf<n>::softened(int element, const double* history) const {
   return Head<n>(basic_history(element, const_cast<double*>(history))).softened > 0;
 }
 
 template <int n>
-std::vector<SectionResult> ForceBeamsOf<n>::basic_sections(int element, const Vector6&, double, const double* history) const {
+std::vector<SectionResult> ForceBeamsOf<n>::basic_sections(int element, const Vector6&, const ActingLoad&,
+                                                           const double* history) const {
   const Element& e = element_at(element);
   const Head<n> head(const_cast<double*>(history));
   std::vector<SectionResult> results;

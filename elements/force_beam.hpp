@@ -17,10 +17,12 @@ class ForceBeamsOf : public FiberBeams {
 
  protected:
   void initialize_basic(int element, double* history) const override;
-  void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
-                     double* trial, Vector6& force, Matrix6* tangent) const override;
-  std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
+  void respond_basic(int element, const Vector6& deformation, const ActingLoad& acting, double rounding,
+                     const double* committed, double* trial, Vector6& force, Matrix6* tangent) const override;
+  std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, const ActingLoad& acting,
                                             const double* history) const override;
+  DeadResponse dead_response(int element, const Vector6& deformation, const Vector6& force, double part, const Matrix3& axes,
+                             const double* committed, double* trial) const override;
   // Basic forces, element tangent, whether a section has softened, then for each point: deformation, force, tangent.
   int head_size(const FiberMember& member) const override { return basics * (1 + basics) + 1 + n * (2 + n) * member.rule.size(); }
   double torsion_stiffness(const FiberMember& member) const override;
@@ -36,16 +38,16 @@ class ForceBeamsOf : public FiberBeams {
   static void respond_section(const FiberSection& section, const Section& deformation, const double* committed, double* trial,
                               Section& force, SectionMatrix& tangent);
   static SectionMatrix section_flexibility(const FiberSection& section, const SectionMatrix& tangent);
-  static Section section_force(const Element& element, const Basic& basic_force, double part, int point);
-  static Section load_force(const Element& element, double x);
-  void balance(const Element& element, const Basic& deformation, double part, bool new_tangents, double* head,
+  static Section section_force(const Element& element, const Basic& basic_force, const ActingLoad& acting, int point);
+  static Section load_force(const MemberLoad& load, double x, double length);
+  void balance(const Element& element, const Basic& deformation, const ActingLoad& acting, bool new_tangents, double* head,
                PointMatrices& flexibility) const;
   // From the flexibility of the directions without release.
   static BasicMatrix tangent_of(const Element& element, const BasicMatrix& flexibility);
   double move_sections(const Element& element, const PointVectors& start, const PointVectors& correction, double length,
-                       double part, const double* committed, double* trial) const;
+                       const ActingLoad& acting, const double* committed, double* trial) const;
   // `rounding`: of the basic deformations [m, rad], for elements that do not deform at all.
-  void find_sections(int element, const Basic& deformation, double part, double rounding, const double* committed,
+  void find_sections(int element, const Basic& deformation, const ActingLoad& acting, double rounding, const double* committed,
                      double* trial) const;
 };
 

@@ -2,6 +2,7 @@
 // transformation's. A kind of member is a class derived from Members that answers basic deformations with basic forces.
 #pragma once
 
+#include "elements/dead_load.hpp"
 #include "elements/member_geometry.hpp"
 #include "elements/member_load.hpp"
 
@@ -19,8 +20,8 @@ class Members : public ElementGroup {
   void start_step(int element, const double* committed, double* trial) const final;
   void respond(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
                Matrix12* tangent) const final;
-  Matrix12 geometric_change(int element, const Vector12& displacement, const Vector12& step, const double* committed,
-                            double* trial) const final;
+  Matrix12 geometric_change(int element, const Vector12& displacement, const Vector12& step, double load_step,
+                            const double* committed, double* trial) const final;
   ElementPose pose(int element, const Vector12& displacement, const double* history) const final;
   std::vector<SectionResult> sections(int element, const Vector12& displacement, const double* history) const final;
 
@@ -37,11 +38,21 @@ class Members : public ElementGroup {
   virtual void start_basic(int element, const double* committed, double* trial) const {
     (void)element; (void)committed; (void)trial;
   }
-  // Force, and its derivative if `tangent` is not null. `part`: of the member's load that acts; `rounding`: of the deformations [m, rad].
-  virtual void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
-                             double* trial, Vector6& force, Matrix6* tangent) const = 0;
-  virtual std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
+  // Force, and its derivative if `tangent` is not null. `rounding`: of the deformations [m, rad].
+  virtual void respond_basic(int element, const Vector6& deformation, const ActingLoad& acting, double rounding,
+                             const double* committed, double* trial, Vector6& force, Matrix6* tangent) const = 0;
+  virtual std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, const ActingLoad& acting,
                                                     const double* history) const = 0;
+  // Of members with dead loads, whose present local axes are the rows of `axes`; to be called after respond_basic(), which left
+  // `force` and `trial`.
+  virtual DeadResponse dead_response(int element, const Vector6& deformation, const Vector6& force, double part, const Matrix3& axes,
+                                     const double* committed, double* trial) const {
+    (void)element; (void)deformation; (void)force; (void)part; (void)axes; (void)committed; (void)trial;
+    return {};
+  }
+
+  // A member's load as it keeps it: without large rotations all of it is in local axes.
+  MemberLoad kept_load(const MemberLoad& load, const BeamFrame& frame) const { return geometry_.finite() ? load : load.in(frame.axes); }
 
   template <class Double>
   Double* basic_history(int element, Double* history) const {
@@ -59,6 +70,14 @@ class Members : public ElementGroup {
   const MemberGeometry& geometry() const { return geometry_; }
 
  private:
+  // The acting load, and whether some of it is dead, of which `turned` is then all in the present `axes`.
+  struct Acting : ActingLoad {
+    bool dead = false;
+    Matrix3 axes;
+    MemberLoad turned;
+  };
+  void find_acting(int element, double part, const Vector12& displacement, const double* committed, Acting& acting) const;
+
   // Of a member in its group's history, and the end of the last one.
   struct Place {
     int begin = 0, own = 0;  // `own`: the member's own part, from `begin`

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "elements/beam_frame.hpp"
+#include "elements/dead_load.hpp"
 #include "elements/element_group.hpp"
 
 namespace nsframe {
@@ -38,6 +39,17 @@ class MemberGeometry {
   // Adds what `part` of a load between the ends does beyond the basic forces.
   virtual void add_load(const BeamFrame& frame, const MemberLoad& load, double part, const Vector12& displacement,
                         const double* committed, Vector12& force, Matrix12* tangent) const;
+
+  // Rows: the present local axes.
+  virtual Matrix3 axes(const BeamFrame& frame, const Vector12& displacement, const double* committed) const {
+    (void)displacement; (void)committed;
+    return frame.axes;
+  }
+  // The same for the dead loads of a finite geometry, whose moment the member has found.
+  virtual void add_dead_load(const BeamFrame& frame, const MemberLoad& load, double part, const DeadMoment& moment,
+                             const Vector12& displacement, const double* committed, Vector12& force, Matrix12* tangent) const {
+    (void)frame; (void)load; (void)part; (void)moment; (void)displacement; (void)committed; (void)force; (void)tangent;
+  }
 
   // Where the member is, for the output; `history` as left by deformation().
   virtual ElementPose pose(const BeamFrame& frame, const Vector12& displacement, const double* history) const;

@@ -2,6 +2,12 @@
 
 namespace nsframe {
 
+MemberLoad MemberLoad::in(const Matrix3& axes) const {
+  MemberLoad local{uniform + axes * dead_uniform, points, Vector3::Zero(), {}};
+  for (const Point& point : dead_points) local.points.push_back({point.position, axes * point.force});
+  return local;
+}
+
 LoadedSection section_forces(const MemberLoad& load, double x, double L) {
   const Vector3& w = load.uniform;
   LoadedSection s;

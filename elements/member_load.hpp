@@ -1,5 +1,5 @@
-// Loads between the ends of a member, in its local axes: what they make in the basic system (simply supported, held
-// along x at its first end) and in a member with clamped ends. Theory.md, "Loads on members".
+// Loads between the ends of a member: what those in its local axes make in the basic system (simply supported, held along x
+// at its first end) and in a member with clamped ends. Theory.md, "Loads on members".
 #pragma once
 
 #include <vector>
@@ -13,11 +13,25 @@ struct MemberLoad {
     double position = 0;              // along the member, in [0, 1]
     Vector3 force = Vector3::Zero();  // [N]
   };
-  Vector3 uniform = Vector3::Zero();  // [N/m] of the member's length
-  std::vector<Point> points;
+  Vector3 uniform = Vector3::Zero();  // local axes, [N/m] of the member's length
+  std::vector<Point> points = {};     // local axes
+  // Dead loads keep their direction: in global axes.
+  Vector3 dead_uniform = Vector3::Zero();
+  std::vector<Point> dead_points = {};
 
-  bool empty() const { return uniform.isZero(0) && points.empty(); }
+  bool empty() const { return uniform.isZero(0) && points.empty() && !dead(); }
+  bool dead() const { return !dead_uniform.isZero(0) || !dead_points.empty(); }
+  // All of it in local axes, of which `axes` has the rows.
+  MemberLoad in(const Matrix3& axes) const;
 };
+
+// The part of a member's load that acts, as it stands in the present local axes (no dead part; null for none).
+struct ActingLoad {
+  double part = 0;
+  const MemberLoad* load = nullptr;
+};
+
+// The functions below are of the load in local axes, without the dead part.
 
 // N [N], Mz, My [N m] at x in [0, 1] of the basic system under the load.
 Vector3 section_force(const MemberLoad& load, double x, double length);

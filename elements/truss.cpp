@@ -20,7 +20,7 @@ UniaxialPoint Trusses::axial(const Element& e, double elongation, const double* 
   return {force, point.tangent * e.area / e.length};
 }
 
-void Trusses::respond_basic(int element, const Vector6& deformation, double, double, const double* committed,
+void Trusses::respond_basic(int element, const Vector6& deformation, const ActingLoad&, double, const double* committed,
                             double* trial, Vector6& force, Matrix6* tangent) const {
   const UniaxialPoint point = axial(elements_[static_cast<std::size_t>(element)], deformation[0], committed, trial);
   force = point.stress * Vector6::Unit(0);
@@ -51,7 +51,8 @@ Vector12 Trusses::rate_force(int element, const Vector12& displacement, const do
   return force;
 }
 
-std::vector<SectionResult> Trusses::basic_sections(int element, const Vector6& deformation, double, const double* history) const {
+std::vector<SectionResult> Trusses::basic_sections(int element, const Vector6& deformation, const ActingLoad&,
+                                                   const double* history) const {
   const Element& e = elements_[static_cast<std::size_t>(element)];
   std::vector<double> scratch(static_cast<std::size_t>(history_size(e.law)));
   SectionResult result;

@@ -26,9 +26,9 @@ class Trusses : public Members {
  protected:
   bool linear_basic() const override { return kind_ == Kind::linear; }
   void initialize_basic(int element, double* history) const override;
-  void respond_basic(int element, const Vector6& deformation, double part, double rounding, const double* committed,
-                     double* trial, Vector6& force, Matrix6* tangent) const override;
-  std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, double part,
+  void respond_basic(int element, const Vector6& deformation, const ActingLoad& acting, double rounding,
+                     const double* committed, double* trial, Vector6& force, Matrix6* tangent) const override;
+  std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, const ActingLoad& acting,
                                             const double* history) const override;
 
  private:

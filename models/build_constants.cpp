@@ -79,9 +79,6 @@ void assemble_constants(Model& model, const VectorX& concentrated_mass, const st
     model.inertia[static_cast<std::size_t>(k)] = Tt * VectorX(M * translation);
   }
   VectorX weights = concentrated_mass;
-  for (const ElementMass& member : members) {
-    for (const int at : member.nodes) weights.segment<3>(6 * at).array() += member.weight_at_ends;
-  }
   for (int i = 0; i < model.nodes.size(); ++i) {
     weights.segment<3>(6 * i).array() *= gravity.acceleration.array();
     weights.segment<3>(6 * i + 3).setZero();

@@ -12,12 +12,13 @@ namespace nsframe {
 
 namespace {
 
-struct Geometry {
+struct KindOfContact {
   ContactKind kind;
   PairFinder find;
 };
 
-constexpr Geometry registry[] = {
+// The registry.
+constexpr KindOfContact kinds_of_contact[] = {
     {ContactKind::nodes, find_nodes},
     {ContactKind::slab_corners, find_slab_corners},
     {ContactKind::slab_edges, find_slab_edges},
@@ -118,7 +119,7 @@ void apply_law(const ContactDescription& contact, std::vector<double>& restituti
 
 void add(const ContactDescription& contact, const ContactScene& scene, std::vector<FinishedPair>& pairs, Diagnostics& diagnostics) {
   check_numbers(contact, diagnostics);
-  const auto geometry = std::find_if(std::begin(registry), std::end(registry), [&](const Geometry& g) { return g.kind == contact.kind; });
+  const auto geometry = std::ranges::find(kinds_of_contact, contact.kind, &KindOfContact::kind);
   std::vector<PairDraft> drafts = geometry->find(contact, scene);
   if (drafts.empty()) return;
   const std::vector<int> floor = sort_by_floor(drafts, contact.direction);

@@ -193,13 +193,8 @@ void GroupBuilder::add(const ElementDescription& element, const ElementNodes& no
   if (!section) return;
   Beam beam{element, id, nodes, frame, section, {}};
   for (const LoadDescription* load : loads) {
-    if (!load->local && element.geometry == Geometry::corotational) {
-      return diagnostics_.error(load->at, fmt::format("element '{}' is corotational: loads between its ends turn with it and are given in "
-                                                      "its local axes; use these, linear or p-delta geometry, or loads at nodes", id));
-    }
-    const auto local = [&](const Vector3& v) { return load->local ? v : Vector3(axes * v); };
-    beam.load.uniform += local(load->uniform);
-    if (!load->force.isZero(0)) beam.load.points.push_back({load->position, local(load->force)});
+    (load->local ? beam.load.uniform : beam.load.dead_uniform) += load->uniform;
+    if (!load->force.isZero(0)) (load->local ? beam.load.points : beam.load.dead_points).push_back({load->position, load->force});
   }
   add_mass(beam);
   if (element.kind == ElementKind::elastic_beam) {
@@ -229,12 +224,8 @@ void GroupBuilder::add_mass(Beam& beam) {
   Matrix12 to_local = Matrix12::Zero();
   for (int block = 0; block < 12; block += 3) to_local.block<3, 3>(block, block) = beam.frame.axes;
   to_local = to_local * member_ends(beam.element.releases, elastic_basic_stiffness(s, L), beam.frame);
-  const double per_length = mass_per_length(mass, section);
-  // loads between the ends of corotational members turn with them, which weights don't: these hang at the nodes
-  const bool at_nodes = beam.element.geometry == Geometry::corotational;
-  masses_.push_back({beam.id, beam.nodes, to_local.transpose() * member_mass_matrix(mass, section, L) * to_local,
-                     at_nodes ? per_length * L / 2 : 0});
-  if (!at_nodes) beam.load.uniform += beam.frame.axes * gravity_ * per_length;
+  masses_.push_back({beam.id, beam.nodes, to_local.transpose() * member_mass_matrix(mass, section, L) * to_local});
+  beam.load.dead_uniform += gravity_ * mass_per_length(mass, section);
 }
 
 void GroupBuilder::add_elastic(const Beam& beam) {

@@ -35,7 +35,6 @@ struct ElementMass {
   std::string id;
   ElementNodes nodes;
   Matrix12 mass;
-  double weight_at_ends = 0;  // [kg] at each node, where the weight isn't a load along the member
 };
 
 // Collects the elements of all structures into groups of one kind.

@@ -20,6 +20,7 @@ struct Reference {
   std::string name;
   VectorX pattern;
   State state;
+  double member_loads = 0;  // of the loads on members, which grow too
 };
 
 // The last static stage, after gravity and the stages before it; without stages, gravity itself.
@@ -32,14 +33,14 @@ Reference reference_loads(const Model& model, const AnalysisOptions& options, Si
     const StaticStage& last = simulation.stages().back();
     return {fmt::format("stage '{}'", last.name), last.pattern, simulation.state()};
   }
-  if (model.gravity_load.isZero(0)) {
-    throw InputError("error: buckling needs a load pattern: a [[static]] stage, or [gravity] with masses");
+  if (!model.loaded()) {
+    throw InputError("error: buckling needs a load pattern: a [[static]] stage, [gravity] with masses, or loads on beams");
   }
   State state = virgin_state(simulation.system());
   if (!state.internal_force.isZero(0)) {
     solve_static(simulation.system(), VectorX::Zero(model.dofs.size()), {}, state);
   }
-  return {"gravity", model.gravity_load, state};
+  return {"gravity", model.gravity_load, state, 1};
 }
 
 // The structure that a shape moves most.
@@ -63,7 +64,7 @@ int buckling(const SceneArguments& arguments) {
   const LoadedScene loaded = load(arguments);
   Simulation simulation(loaded.model, loaded.scene.analysis);
   const Reference reference = reference_loads(loaded.model, loaded.scene.analysis, simulation);
-  const std::vector<BucklingMode> modes = buckling_modes(simulation.system(), reference.state, reference.pattern, shown_modes);
+  const std::vector<BucklingMode> modes = buckling_modes(simulation.system(), reference.state, reference.pattern, shown_modes, reference.member_loads);
   if (arguments.json) {
     nlohmann::json list = nlohmann::json::array();
     for (const BucklingMode& mode : modes) {

@@ -246,7 +246,7 @@ void Assembler::add_rate_tangent(double factor, SparseMatrix& stiffness) const {
   for (std::size_t k = 0; k < rate_values_.size(); ++k) stiffness.valuePtr()[k] += factor * rate_values_[k];
 }
 
-SparseMatrix Assembler::geometric_change(const VectorX& displacement, const VectorX& step, const VectorX& committed,
+SparseMatrix Assembler::geometric_change(const VectorX& displacement, const VectorX& step, double load_step, const VectorX& committed,
                                          VectorX& trial) const {
   const VectorX full = model_.dofs.transformation * displacement, full_step = model_.dofs.transformation * step;
   SparseMatrix change = tangent_;
@@ -254,7 +254,7 @@ SparseMatrix Assembler::geometric_change(const VectorX& displacement, const Vect
   for (const Placed& placed : nonlinear_) {
     scatter(placed,
             placed.group->geometric_change(placed.element, gather(*placed.group, placed.element, full),
-                                           gather(*placed.group, placed.element, full_step),
+                                           gather(*placed.group, placed.element, full_step), load_step,
                                            committed.data() + placed.history_begin, trial.data() + placed.history_begin),
             change.valuePtr());
   }

@@ -57,7 +57,7 @@ class Assembler {
 
   // Half the change of the tangent from `displacement` - `step` to + `step` while the material keeps its tangents at
   // `displacement`; overwrites the trial history.
-  SparseMatrix geometric_change(const VectorX& displacement, const VectorX& step, const VectorX& committed_history,
+  SparseMatrix geometric_change(const VectorX& displacement, const VectorX& step, double load_step, const VectorX& committed_history,
                                 VectorX& trial_history) const;
 
   // The element whose nodes carry the largest part of `residual` (free DOFs), for messages.

@@ -13,6 +13,9 @@ namespace nsframe {
 namespace {
 
 constexpr double relative_change = 1e-4;  // of the displacements for the derivative, to the size of the model
+constexpr double loading_change = 1e-9;   // likewise, towards the loads, to find the tangents of loading
+constexpr double same_tangent = 1e-6;     // relative
+constexpr int most_passes = 5;
 constexpr double least_share = 1e-7;      // of the largest 1 / load factor, below which one is rounding
 
 // Largest extent of the model [m].
@@ -76,22 +79,47 @@ void require_stability(const SparseMatrix& K, bool symmetric) {
   if (!stable) throw ConvergenceError("the structure is not stable under the constant loads: there is no load factor to add");
 }
 
+// Of the loads on members: minus the change of the internal force by their part.
+VectorX member_pattern(System& system, const State& state) {
+  constexpr double change = 1e-4;
+  const double part = system.assembler.load_factor(state.history);
+  VectorX history = state.history, more, less;
+  for (const double side : {1.0, -1.0}) {
+    system.assembler.start_step(state.history, history);
+    system.assembler.set_load_factor(part + side * change, history);
+    system.assembler.internal_force(state.displacement, state.history, history, side > 0 ? more : less);
+  }
+  return (less - more) / (2 * change);
+}
+
 }  // namespace
 
-std::vector<BucklingMode> buckling_modes(System& system, const State& state, const VectorX& pattern, int count) {
-  VectorX history = state.history, force;
-  system.assembler.start_step(state.history, history);
-  system.assembler.internal_force(state.displacement, state.history, history, force);
-  const SparseMatrix K = system.assembler.tangent();
-  require_stability(K, system.assembler.symmetric());
-  Eigen::SparseLU<SparseMatrix> factor(K);
-  if (factor.info() != Eigen::Success) throw ConvergenceError("the stiffness is singular under the constant loads");
-  const VectorX response = factor.solve(pattern);
-  const double size = response.lpNorm<Eigen::Infinity>();
-  if (!(size > 0)) return {};
+std::vector<BucklingMode> buckling_modes(System& system, const State& state, const VectorX& at_nodes, int count, double member_loads) {
+  VectorX pattern = at_nodes;
+  if (member_loads != 0) pattern += member_loads * member_pattern(system, state);
+  VectorX history = state.history, force, loading = state.displacement, response;
+  SparseMatrix K;
+  Eigen::SparseLU<SparseMatrix> factor;
+  double size = 0, reached = 0, next = 0;  // `reached`: the load factor at `loading` that K has seen
+  for (int pass = 0; pass < most_passes; ++pass) {
+    system.assembler.start_step(state.history, history);
+    system.assembler.internal_force(loading, state.history, history, force);
+    const SparseMatrix& tangent = system.assembler.tangent();
+    if (pass > 1 && (tangent - K).norm() <= same_tangent * K.norm()) break;
+    K = tangent;
+    reached = next;
+    require_stability(K, system.assembler.symmetric());
+    factor.compute(K);
+    if (factor.info() != Eigen::Success) throw ConvergenceError("the stiffness is singular under the constant loads");
+    response = factor.solve(pattern);
+    size = response.lpNorm<Eigen::Infinity>();
+    if (!(size > 0)) return {};
+    next = loading_change * extent(system.model) / size;
+    loading = state.displacement + next * response;
+  }
   const double change = relative_change * extent(system.model) / size;
   system.assembler.start_step(state.history, history);
-  SparseMatrix geometric = system.assembler.geometric_change(state.displacement, change * response, state.history, history);
+  SparseMatrix geometric = system.assembler.geometric_change(loading, change * response, change * member_loads, state.history, history);
   geometric *= 1 / change;
   const Pairs pairs = eigenpairs(K, geometric, factor, count);
   const double largest = pairs.values.cwiseAbs().maxCoeff();
@@ -102,7 +130,7 @@ std::vector<BucklingMode> buckling_modes(System& system, const State& state, con
     // the vector of a real eigenvalue is real but for a factor
     Eigen::Index largest_entry = 0;
     pairs.vectors.col(i).cwiseAbs().maxCoeff(&largest_entry);
-    BucklingMode mode{1 / value.real(), (pairs.vectors.col(i) / pairs.vectors(largest_entry, i)).real()};
+    BucklingMode mode{reached + 1 / value.real(), (pairs.vectors.col(i) / pairs.vectors(largest_entry, i)).real()};
     const VectorX full = system.model.dofs.expand(mode.shape);
     double translation = 0;
     for (int node = 0; node < system.model.nodes.size(); ++node) {

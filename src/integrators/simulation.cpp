@@ -64,7 +64,7 @@ void Simulation::check_stages_fit() const {
   Diagnostics diagnostics;
   check_stages(model_.stages, diagnostics);
   const Location& at = model_.stages.front().at;
-  if (!model_.gravity_statically_first && model_.gravity_load.cwiseAbs().maxCoeff() > 0) {
+  if (!model_.gravity_statically_first && model_.loaded()) {
     diagnostics.error(at, "static stages begin at rest: they need statically_first = true in [gravity]");
   }
   if (model_.initial_displacement.cwiseAbs().maxCoeff() > 0) {

@@ -30,7 +30,8 @@ VectorX response_to(System& system, const VectorX& pattern, const StaticPoint& s
 
 // Under load control only its distance tells the next equilibrium of a path from another one, beyond a limit point that the
 // load cannot pass: how many times as far as the last increment leads. What lies so far on the path itself, where much
-// yields at once, is found by Newton's method or by shorter steps.
+// yields at once, is found by Newton's method or by shorter steps. The arc length holds the distance of all DOFs together, but the
+// control DOF may be a small part of it: its share is compared.
 constexpr double farthest = 30;
 
 class StageRun {
@@ -44,7 +45,7 @@ class StageRun {
   bool find_points(StaticControl& control, StaticStep& step);
   // One point by the ladder; false when no algorithm finds it.
   bool find(StaticStep& step);
-  // Of an equilibrium that Newton's method didn't find, under load control: beyond `farthest`.
+  // Of an equilibrium that Newton's method didn't find, under load control or by the arc length: beyond `farthest`.
   bool is_far(const StaticStep& step);
   void keep(const StaticStep& step, const StaticPoint& found);
   void give_up(const StaticControl& control, const StaticStep& step);
@@ -55,6 +56,8 @@ class StageRun {
   State& state_;
   StaticPoint committed_;
   double compliance_ = 0;  // displacement by load factor, of the last increment or elastic
+  double share_ = 0;       // of the control DOF in all displacements, likewise
+  double share_of_control(const VectorX& change) const;
   Ladder ladder_;
   std::vector<Attempt> attempts_;
   StageResult result_;
@@ -62,7 +65,7 @@ class StageRun {
 
 bool StageRun::find(StaticStep& step) {
   bool found = ladder_.climb(step, stage_.options.max_iterations, attempts_);
-  if (found && stage_.options.control == "load" && attempts_.size() > 1) found = !is_far(step);
+  if (found && stage_.options.control != "displacement" && attempts_.size() > 1) found = !is_far(step);
   for (const Attempt& attempt : attempts_) result_.iterations += attempt.iterations;
   if (attempts_.size() > 1) {
     result_.ladder.push_back({stage_.name, static_cast<int>(result_.points.size()), committed_.factor, attempts_});
@@ -70,12 +73,25 @@ bool StageRun::find(StaticStep& step) {
   return found;
 }
 
+double StageRun::share_of_control(const VectorX& change) const {
+  const double all = change.norm();
+  return stage_.control_row.size() > 0 && all > 0 ? std::abs(stage_.control_row.dot(change)) / all : 0;
+}
+
 bool StageRun::is_far(const StaticStep& step) {
   const StaticPoint& found = step.trial();
-  const double led = compliance_ * std::abs(found.factor - committed_.factor);
-  const double ratio = (found.state.displacement - committed_.state.displacement).norm() / led;
-  if (!(ratio > farthest)) return false;
+  const VectorX change = found.state.displacement - committed_.state.displacement;
   Attempt& last = attempts_.back();
+  if (stage_.options.control != "load") {
+    const double ratio = share_ > 0 ? share_of_control(change) / share_ : 0;
+    if (!(ratio > farthest)) return false;
+    last.converged = false;
+    last.reason = fmt::format("an equilibrium where {} moves {:.0f} times as far as the last increment leads", stage_.control_name, ratio);
+    return true;
+  }
+  const double led = compliance_ * std::abs(found.factor - committed_.factor);
+  const double ratio = change.norm() / led;
+  if (!(ratio > farthest)) return false;
   last.converged = false;
   last.reason = fmt::format("an equilibrium {:.0f} times as far as the last increment leads; displacement control or the arc "
                             "length follow the path", ratio);
@@ -134,8 +150,9 @@ bool StageRun::find_points(StaticControl& control, StaticStep& step) {
       return false;
     }
     largest_force = std::max(largest_force, step.largest_force());
-    if (const double factor = std::abs(step.trial().factor - committed_.factor); factor > 0)
-      compliance_ = (step.trial().state.displacement - committed_.state.displacement).norm() / factor;
+    const VectorX change = step.trial().state.displacement - committed_.state.displacement;
+    if (const double factor = std::abs(step.trial().factor - committed_.factor); factor > 0) compliance_ = change.norm() / factor;
+    share_ = share_of_control(change);
     std::swap(committed_, step.trial());
     keep(step, committed_);
   }
@@ -149,6 +166,7 @@ StageResult StageRun::run() {
   committed_ = {state_, 0};
   const VectorX response = response_to(system_, stage_.pattern, committed_);
   const double size = compliance_ = response.norm();
+  share_ = share_of_control(response);
   StaticStep step(system_, system_.static_load, stage_.pattern, size > 0 ? 1 / size : 1);
   const auto control = make_control({stage_, system_.model, committed_, response});
   for (StageObserver* observer : control_.observers) observer->start(system_.model, stage_, committed_.state);

@@ -65,11 +65,13 @@ void evaluate_members(const FrameGeometry& geometry, const Model& model, const S
     const Vector12& forces = end_forces.evaluate(model, drawn.group, drawn.element, state, displacement);
     const ElementGroup& group = *model.groups[drawn.group];
     const double* const history = element_history(model, drawn.group, drawn.element, state);
-    const auto sections = group.sections(drawn.element, element_displacement(group, drawn.element, displacement), history);
+    const Vector12 at_nodes = element_displacement(group, drawn.element, displacement);
+    const auto sections = group.sections(drawn.element, at_nodes, history);
+    const MemberLoad load = present_load(group, drawn.element, at_nodes, history);
     const double length = group.shape(drawn.element).length, part = group.load_part(drawn.element, history);
     for (int cell = drawn.first_cell; cell < drawn.last_cell; ++cell) {
       const auto i = static_cast<std::size_t>(cell);
-      const SectionForce at = section_force(forces, geometry.along[i], group.load(drawn.element), part, length);
+      const SectionForce at = section_force(forces, geometry.along[i], load, part, length);
       store(fields.force, cell, at.force);
       store(fields.moment, cell, at.moment);
       if (sections.empty()) continue;

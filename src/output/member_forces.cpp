@@ -39,10 +39,16 @@ SectionForce section_force(const Vector12& end_forces, double along) {
           -(1 - along) * end_forces.segment<3>(3) + along * end_forces.segment<3>(9)};
 }
 
-SectionForce section_force(const Vector12& end_forces, double along, const MemberLoad* load, double part, double length) {
+MemberLoad present_load(const ElementGroup& group, int element, const Vector12& displacement, const double* history) {
+  const MemberLoad* const load = group.load(element);
+  if (!load) return {};
+  return load->dead() ? load->in(group.pose(element, displacement, history).axes) : *load;
+}
+
+SectionForce section_force(const Vector12& end_forces, double along, const MemberLoad& load, double part, double length) {
   SectionForce at = section_force(end_forces, along);
-  if (!load || load->empty() || part == 0) return at;
-  const LoadedSection here = section_forces(*load, along, length), start = section_forces(*load, 0, length);
+  if (load.empty() || part == 0) return at;
+  const LoadedSection here = section_forces(load, along, length), start = section_forces(load, 0, length);
   at.force = -end_forces.head<3>() + part * (here.force - start.force);
   at.moment += part * here.moment;
   return at;

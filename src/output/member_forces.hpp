@@ -27,12 +27,15 @@ class EndForces {
   Vector12 force_;
 };
 
+// The load between an element's ends in its local axes at `displacement` (12); `history` as committed.
+MemberLoad present_load(const ElementGroup& group, int element, const Vector12& displacement, const double* history);
+
 // Section force and moment at `along` in [0, 1] of a member, as the part beyond acts on the part before: (N, VY, VZ) [N]
 // and (T, MY, MZ) [N m]. By equilibrium with the end forces and, where the member has one, `part` of its load.
 struct SectionForce {
   Vector3 force, moment;
 };
 SectionForce section_force(const Vector12& end_forces, double along);
-SectionForce section_force(const Vector12& end_forces, double along, const MemberLoad* load, double part, double length);
+SectionForce section_force(const Vector12& end_forces, double along, const MemberLoad& load, double part, double length);
 
 }  // namespace nsframe

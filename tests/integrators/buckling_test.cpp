@@ -129,19 +129,113 @@ TEST_CASE("tension and linear geometry have no critical load") {
   CHECK(modes_of(Geometry::linear, -1).empty());
 }
 
+namespace {
+
+constexpr double concrete_area = 5e-3, arm = 0.06, strength = 30e6;  // of each of four fibers [m2]; [m], [Pa]
+constexpr double four_elements = 1.0129150629;                        // their critical load over Euler's
+
+// A cantilever of four elements of four fibers of Concrete02, whose envelope is a parabola up to its strength.
+ModelDescription concrete_column(ElementKind kind) {
+  const Concrete02 concrete{-strength, -0.002, -6e6, -0.006, 0.1, 2.5e6, 2.5e9};
+  ModelDescription d = column(4, End::fixed, End::free);
+  d.materials = {{"m", {}, concrete}};
+  FiberSectionDescription section;
+  for (const double y : {-arm, arm})
+    for (const double z : {-arm, arm}) section.fibers.push_back({y, z, concrete_area, {"m", {}}});
+  section.torsion_stiffness = 1e6;
+  d.sections = {{"c", {}, section, {}}};
+  for (ElementDescription& e : d.structures[0].elements) e.kind = kind;
+  return d;
+}
+
+// Euler's load of it by the tangent modulus on the envelope, E_c sqrt(1 - P/(A f_c)), under the axial force P.
+double euler_under(double force) {
+  const double modulus = 2 * strength / 0.002 * std::sqrt(1 - force / (4 * concrete_area * strength));
+  return pi * pi * modulus * 4 * concrete_area * arm * arm / (4 * height * height);
+}
+
+VectorX unit_weight(const Model& model) {
+  VectorX load = VectorX::Zero(model.dofs.full);
+  load[full_dof(model, "a.4", 2)] = -1;
+  return model.dofs.transformation_transposed * load;
+}
+
+}  // namespace
+
 TEST_CASE("a column of a curved law buckles by its tangent modulus, whatever its curvature") {
-  const double area = 5e-3, arm = 0.06;  // [m2], [m]
-  const Concrete02 concrete{-30e6, -0.002, -6e6, -0.006, 0.1, 2.5e6, 2.5e9};
   for (const ElementKind kind : {ElementKind::displacement_beam, ElementKind::force_beam}) {
-    ModelDescription d = column(4, End::fixed, End::free);
-    d.materials = {{"m", {}, concrete}};
-    FiberSectionDescription section;
-    for (const double y : {-arm, arm})
-      for (const double z : {-arm, arm}) section.fibers.push_back({y, z, area, {"m", {}}});
-    section.torsion_stiffness = 1e6;
-    d.sections = {{"c", {}, section, {}}};
-    for (ElementDescription& e : d.structures[0].elements) e.kind = kind;
-    const double modulus = 2 * 30e6 / 0.002, euler = pi * pi * modulus * 4 * area * arm * arm / (4 * height * height);
-    CHECK(critical(d, "a.4") / euler == doctest::Approx(1.0129150629).epsilon(2e-6));
+    CHECK(critical(concrete_column(kind), "a.4") / euler_under(0) == doctest::Approx(four_elements).epsilon(2e-6));
+  }
+}
+
+TEST_CASE("under a constant load a column of Concrete02 buckles by the tangent of loading at its stress") {
+  for (const ElementKind kind : {ElementKind::displacement_beam, ElementKind::force_beam}) {
+    const Model model = build(concrete_column(kind));
+    for (const double force : {100e3, 250e3}) {
+      System system(model, 1);
+      const VectorX pattern = unit_weight(model);
+      State state = virgin_state(system);
+      solve_static(system, force * pattern, {}, state);
+      const double more = buckling_modes(system, state, pattern, 1).at(0).load_factor;
+      // a state that 1e-9 of the height has shortened: 1e-6 of the strain at the strength
+      CHECK((force + more) / euler_under(force) == doctest::Approx(four_elements).epsilon(4e-6));
+    }
+  }
+}
+
+TEST_CASE("a column of Concrete02 that leans a little carries its tangent modulus load, and not much more") {
+  // P = four_elements euler_under(P): Engesser's load; a column on its way there cannot carry the elastic one
+  const double elastic = four_elements * euler_under(0), e = elastic / (4 * concrete_area * strength);
+  const double engesser = 4 * concrete_area * strength * (-e * e + e * std::sqrt(e * e + 4)) / 2;
+  REQUIRE(engesser < 0.8 * elastic);
+  ModelDescription d = concrete_column(ElementKind::displacement_beam);
+  StageDescription stage;
+  stage.name = "weight";
+  stage.loads = {{{"a.4", {}}, 2, -1}, {{"a.4", {}}, 0, 1e-4}};
+  stage.control_node = Reference{"a.4", {}};
+  stage.options.control = "displacement";
+  stage.options.targets = {0.1};
+  stage.options.step = 2e-4;
+  d.stages = {stage};
+  d.structures[0].masses = {mass("4", 1)};
+  const Model model = build(d);
+  Simulation simulation(model, options(1, 1e-3, 0));
+  std::vector<StageResult> results;
+  REQUIRE_MESSAGE(simulation.run_stages(1, {{"auto"}, {}, {}}, results), results.back().stop_reason);
+  double most = 0;
+  for (const StagePoint& point : results[0].points) most = std::max(most, point.load_factor);
+  CHECK(most > 0.97 * engesser);
+  CHECK(most < 1.03 * engesser);
+  // and at Engesser's load the buckling analysis has nothing left to add
+  System system(model, 1);
+  State state = virgin_state(system);
+  solve_static(system, 0.999 * engesser * unit_weight(model), {}, state);
+  const double more = buckling_modes(system, state, unit_weight(model), 1).at(0).load_factor;
+  CHECK(more / engesser == doctest::Approx(four_elements * euler_under(0.999 * engesser) / engesser - 0.999).epsilon(1e-2));
+}
+
+TEST_CASE("a mast buckles under its own weight at Greenhill's height, as a load along its members") {
+  // q L^3 / EI = 9/4 j^2 with the first zero j of J_{-1/3} (Greenhill 1881)
+  const double j = 1.866350858873895, exact = 2.25 * j * j * E * I / (height * height * height);
+  for (const Geometry geometry : {Geometry::p_delta, Geometry::corotational}) {
+    const auto factor = [geometry](int elements) {
+      ModelDescription d = column(elements, End::fixed, End::free);
+      LoadDescription weight;
+      weight.uniform = Vector3(0, 0, -1);
+      for (ElementDescription& e : d.structures[0].elements) {
+        e.geometry = geometry;
+        weight.elements.push_back({e.id, {}});
+      }
+      d.structures[0].loads = {weight};
+      const Model model = build(d);
+      System system(model, 1);
+      REQUIRE(model.loaded());
+      return buckling_modes(system, virgin_state(system), VectorX::Zero(model.dofs.size()), 1, 1).at(0).load_factor;
+    };
+    const double coarse = factor(8) / exact - 1, fine = factor(16) / exact - 1;
+    CAPTURE(coarse);
+    CAPTURE(fine);
+    CHECK(std::abs(fine) < 0.004);
+    CHECK(std::abs(fine + (fine - coarse) / 3) < 1e-3);  // of second order
   }
 }

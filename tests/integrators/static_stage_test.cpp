@@ -97,6 +97,103 @@ TEST_CASE("where the arc length stops at a kink that snaps back, displacement co
   }
 }
 
+TEST_CASE("the arc length follows a shallow truss behind a spring through its snap-back, on the closed form") {
+  // two corotational bars of half span 1 m and rise h, pushed down at their crown through a spring k: the crown's sag w carries
+  // P(w) = 2 EA (L - l)/L (h - w)/l, and the spring's end goes u = w + P/k, back where P falls faster than k
+  const double h = 0.2, stretch = 200e9 * 1e-4, L = std::hypot(1, h), soft = 3e5;
+  const auto load = [&](double w) { return 2 * stretch * (L - std::hypot(1, h - w)) / L * (h - w) / std::hypot(1, h - w); };
+  const auto way = [&](double w) { return w + load(w) / soft; };
+  for (const ArcKind arc : {ArcKind::spherical, ArcKind::cylindrical}) {
+    CAPTURE(int(arc));
+    ModelDescription d;
+    d.materials = {{"m", {}, Elastic{200e9}}};
+    StructureDescription s;
+    s.name = "s";
+    s.nodes = {node("1", -1, 0, 0), node("2", 0, 0, h), node("3", 1, 0, 0), node("4", 0, 0, h)};
+    s.supports = {fixed("1"), fixed("3"), fixed("2", {true, true, false, true, true, true}), fixed("4", {true, true, false, true, true, true})};
+    s.elements = {bar("l", "1", "2", "m", 1e-4), bar("r", "2", "3", "m", 1e-4)};
+    for (ElementDescription& e : s.elements) e.geometry = Geometry::corotational;
+    SpringDescription spring = ground_spring("k", "2", soft * Vector6::Unit(2));
+    spring.node_j = Reference{"4", {}};
+    s.springs = {spring};
+    s.masses = {mass("2", 1), mass("4", 1)};
+    d.structures = {s};
+    StageDescription stage;
+    stage.name = "push";
+    stage.loads = {{{"s.4", {}}, 2, -1000}};
+    stage.control_node = Reference{"s.4", {}};  // the end that snaps back
+    stage.control_dof = 2;
+    stage.options.control = "arc-length";
+    stage.options.arc = arc;
+    stage.options.targets = {-0.6};
+    stage.options.step = 2e-3;
+    d.stages = {stage};
+    const Model model = build(d);
+    Simulation simulation(model, options(1, 1e-3, 1));
+    Curve curve;
+    std::vector<StageResult> results;
+    REQUIRE_MESSAGE(simulation.run_stages(1, {{"newton"}, {&curve}, {}}, results), results.back().stop_reason);
+    const std::size_t n = curve.points.size();
+    std::vector<double> sag(n), force(n), end(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      sag[i] = -curve.states[i].displacement[0];
+      end[i] = -curve.states[i].displacement[1];
+      force[i] = 1000 * curve.points[i].load_factor;
+      CHECK(std::abs(force[i] - load(sag[i])) < 1e-7 * load(0.08));
+      CHECK(std::abs(end[i] - way(sag[i])) < 1e-8);
+      if (i > 0) CHECK(sag[i] > sag[i - 1]);  // on and on, whatever the load and the end do
+    }
+    CHECK(end.back() == doctest::Approx(0.6).epsilon(1e-9));
+    // extremes of the path, by golden sections of the closed form, and by parabolas through the points around them
+    const auto extreme = [](const auto& f, double low, double high, double sign) {
+      for (int i = 0; i < 200; ++i) {
+        const double a = low + (high - low) / 3, b = high - (high - low) / 3;
+        (sign * f(a) < sign * f(b) ? low : high) = sign * f(a) < sign * f(b) ? a : b;
+      }
+      return f(0.5 * (low + high));
+    };
+    const auto found = [&](const std::vector<double>& values, double sign) {
+      std::vector<double> all;
+      for (std::size_t i = 1; i + 1 < n; ++i) {
+        const double before = values[i - 1] - values[i], after = values[i + 1] - values[i];
+        if (sign * before > 0 || sign * after >= 0) continue;
+        const double x = sag[i - 1] - sag[i], y = sag[i + 1] - sag[i];
+        const double curve_of = (before / x - after / y) / (x - y), slope = after / y - curve_of * y;
+        all.push_back(values[i] - slope * slope / (4 * curve_of));
+      }
+      return all;
+    };
+    for (const double sign : {1.0, -1.0}) {  // the limit of the load and the first of the end; those on the way back
+      const double low = sign > 0 ? 0 : h, high = sign > 0 ? h : 2 * h;
+      const auto of_load = found(force, sign), of_end = found(end, sign);
+      REQUIRE(of_load.size() == 1);
+      REQUIRE(of_end.size() == 1);
+      CHECK(of_load[0] == doctest::Approx(extreme(load, low, high, sign)).epsilon(1e-3));
+      CHECK(of_end[0] == doctest::Approx(extreme(way, low, high, sign)).epsilon(1e-3));
+    }
+    CHECK(found(end, 1)[0] - found(end, -1)[0] > 0.1);  // a snap-back by more than half the rise
+  }
+}
+
+TEST_CASE("an arc length that would turn back says where, and doesn't go over to another branch") {
+  // behind a spring so soft that beyond the limit the way on is all but the way back; algorithms after Newton's find the branch of
+  // the law in compression, far away in the control DOF
+  ModelDescription d = softening_chain();
+  d.structures[0].springs.back().stiffness = 50 * Vector6::Unit(0);
+  const Model model = build(d);
+  Simulation simulation(model, options(1, 1e-3, 1));
+  std::vector<StageResult> results;
+  REQUIRE_FALSE(simulation.run_stages(1, {{"auto"}, {}, {}}, results));
+  CHECK(results[0].points.back().load_factor == doctest::Approx(10).epsilon(1e-3));
+  CHECK(results[0].points.back().displacement == doctest::Approx(0.01).epsilon(1e-3));
+  CHECK(results[0].stop_reason.starts_with("stage 'push' cannot go on from load factor 10, s.1 ux = 0.01 "));
+  CHECK(results[0].stop_reason.find("snaps back at a kink") != std::string::npos);
+  const auto& records = results[0].ladder;
+  CHECK(std::any_of(records.begin(), records.end(), [](const LadderRecord& record) {
+    return record.attempts.back().reason.find("times as far as the last increment leads") != std::string::npos;
+  }));
+}
+
 TEST_CASE("load control cannot pass the limit point, and says where it stopped and what was tried") {
   for (const std::string algorithm : {"newton", "auto"}) {  // but for Newton's they find the law's second branch, far away
     CAPTURE(algorithm);

@@ -78,21 +78,32 @@ TEST_CASE("a load names beams that are there, and acts between their ends") {
   CHECK(error_of(d) == "s.toml:8:3: error: a load at 1.5 of the beam's length, must lie in [0, 1]");
 }
 
-TEST_CASE("a corotational member carries loads in its local axes only; its own weight hangs at its nodes") {
+TEST_CASE("a corotational member keeps loads in global axes and its own weight as dead loads, others in its axes") {
   ModelDescription d = column();
   only(d).elements[0].geometry = Geometry::corotational;
   only(d).elements[0].mass = {40, 0, false, false};
   only(d).masses.clear();
   d.gravity.acceleration = Vector3(0, 0, -10);
-  const Model model = build(d);
-  CHECK(model.gravity_load[2] == doctest::Approx(-10 * 40 * 2.5 / 2));
   LoadDescription load;
   load.at = at(8);
   load.elements = {{"e1", at(9)}};
-  load.uniform = Vector3(1, 0, 0);
-  only(d).loads = {load};
-  CHECK(error_of(d) == "s.toml:8:3: error: element 'a.e1' is corotational: loads between its ends turn with it and are given in its "
-                       "local axes; use these, linear or p-delta geometry, or loads at nodes");
-  only(d).loads[0].local = true;
-  CHECK(error_of(d) == "no error");
+  load.uniform = Vector3(1, 2, 0);
+  load.force = Vector3(0, 0, 5);
+  load.position = 0.3;
+  only(d).loads = {load, load};
+  only(d).loads[1].local = true;
+  const Model model = build(d);
+  CHECK(model.gravity_load.isZero(0));  // the static analysis brings the loads on members with their factor
+  CHECK(model.loaded());
+  const MemberLoad& kept = *model.groups.at(0)->load(0);
+  CHECK(kept.dead_uniform == Vector3(1, 2, -10 * 40));
+  CHECK(kept.uniform == Vector3(1, 2, 0));
+  REQUIRE(kept.dead_points.size() == 1);
+  CHECK(kept.dead_points[0].position == 0.3);
+  CHECK(kept.dead_points[0].force == Vector3(0, 0, 5));
+  REQUIRE(kept.points.size() == 1);
+  only(d).elements[0].geometry = Geometry::p_delta;  // a vertical column's local x runs up
+  const Model small = build(d);
+  CHECK_FALSE(small.groups.at(0)->load(0)->dead());
+  CHECK(small.groups.at(0)->load(0)->uniform.x() == doctest::Approx(1 - 10 * 40));
 }
