@@ -29,6 +29,7 @@ class System {
   Assembler assembler;
   Damping damping;
   VectorX static_load;              // acts throughout [N]
+  double member_load = 0;           // norm of what the loads on nonlinear members, which stand in P(q), give to the nodes [N]
   SparseMatrix initial_stiffness;   // tangent at the first rest, for algorithms that keep it
 
   const Contacts& contacts() const { return model.contacts; }

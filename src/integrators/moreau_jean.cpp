@@ -27,7 +27,7 @@ std::string hint_of_restitution(const Contacts& contacts) {
 }  // namespace
 
 MoreauJean::MoreauJean(const AnalysisOptions& options, const System& system)
-    : options_(options), matrix_(system), ladder_(options.algorithm), forces_(system), least_scale_(least_acceleration * system.mass().diagonal().norm()),
+    : options_(options), matrix_(system), ladder_(options.algorithm), forces_(system), least_scale_(least_acceleration * system.mass().diagonal().norm() + system.member_load),
       description_(forces_.describe(system.contacts())) {
   if (!options.projection) return;
   description_.emplace_back("penetrations are moved back to gap 0 after each step");
