@@ -319,7 +319,7 @@ void ModelBuilder::release_unstressed_rotations() {
         fixed_[dof] = true;
       } else {
         diagnostics_.error(node_at_[static_cast<std::size_t>(i)],
-                           fmt::format("node '{}' is not held in {}: no element, support or mass acts there",
+                           fmt::format("node '{}' is not held in {}: no element with stiffness, support or mass acts there",
                                        model_.nodes.id[static_cast<std::size_t>(i)], node_dof_names[static_cast<std::size_t>(k)]));
         break;
       }

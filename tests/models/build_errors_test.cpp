@@ -18,7 +18,7 @@ TEST_CASE("a reference to a node, section or material that is not there is an er
   only(d).elements.back().node_j.at = at(7);
   CHECK(error_of(d) ==
         "s.toml:7:3: error: node 'tpo' is not defined in structure 'a'; did you mean 'top'?\n"
-        "s.toml:9:3: error: node 'a.top' is not held in ux: no element, support or mass acts there");
+        "s.toml:9:3: error: node 'a.top' is not held in ux: no element with stiffness, support or mass acts there");
   d = column();
   d.sections.front().name = "column";
   only(d).elements[0].section = {"colum", at(8)};
@@ -117,9 +117,9 @@ TEST_CASE("offsets that leave a member no length, or of a truss, are errors") {
 TEST_CASE("a node that nothing holds in one direction is an error that names the direction") {
   ModelDescription d = column();
   only(d).nodes.push_back({"3", at(9), Vector3(1, 0, 0)});
-  CHECK(error_of(d) == "s.toml:9:3: error: node 'a.3' is not held in ux: no element, support or mass acts there");
+  CHECK(error_of(d) == "s.toml:9:3: error: node 'a.3' is not held in ux: no element with stiffness, support or mass acts there");
   only(d).supports.push_back(fixed("3", {true, false, true, false, false, false}));
-  CHECK(error_of(d) == "s.toml:9:3: error: node 'a.3' is not held in uy: no element, support or mass acts there");
+  CHECK(error_of(d) == "s.toml:9:3: error: node 'a.3' is not held in uy: no element with stiffness, support or mass acts there");
   only(d).supports.back().fixed[1] = true;
   CHECK(error_of(d) == "no error");
 }
