@@ -54,7 +54,7 @@ void print_contacts(const Contacts& contacts) {
   }
 }
 
-void print_solution(const LoadedScene& loaded, Simulation& simulation) {
+void print_solution(const LoadedScene& loaded, Simulation& simulation, const std::vector<std::string>& own) {
   const AnalysisOptions& analysis = loaded.scene.analysis;
   for (const StaticStage& stage : simulation.stages()) {
     fmt::print("static stage '{}': by {}{}, {}, first {:g}, last {:g}\n", stage.name, stage.options.control,
@@ -62,7 +62,6 @@ void print_solution(const LoadedScene& loaded, Simulation& simulation) {
                stage.options.targets.front(), stage.options.targets.back());
   }
   if (!simulation.stages().empty() && !(simulation.duration() > 0)) return;
-  const std::vector<std::string> own = simulation.scheme().describe();
   const std::string name = simulation.scheme().name();
   if (!own.empty() && name != "moreau-jean") {
     fmt::print("scheme {}: {} {:g} ms, {} steps to {:g} s\n", name, name == "exact" ? "results every" : "dt =", 1e3 * analysis.dt,
@@ -86,7 +85,8 @@ void print_solution(const LoadedScene& loaded, Simulation& simulation) {
 
 int check(const SceneArguments& arguments) {
   const LoadedScene loaded = load(arguments);
-  Simulation simulation(loaded.model, loaded.scene.analysis);
+  ReducedSimulation reduced(loaded.model, loaded.scene.analysis);
+  Simulation& simulation = reduced.simulation();
   const Model& model = loaded.model;
   fmt::print("{}\n", loaded.scene.title.empty() ? arguments.scene.string() : loaded.scene.title);
   std::map<std::string, int> kinds;
@@ -99,7 +99,7 @@ int check(const SceneArguments& arguments) {
   }
   const std::size_t fibers = static_cast<std::size_t>(simulation.system().assembler.fibers());
   fmt::print("{}, {}, {}{}\n", counted(model.nodes.size(), "node"), counted(elements, "element"),
-             counted(model.dofs.size(), "free DOF"), fibers > 0 ? ", " + counted(fibers, "fiber") : "");
+             counted(reduced.dofs(), "free DOF"), fibers > 0 ? ", " + counted(fibers, "fiber") : "");
   for (const auto& [kind, count] : kinds) fmt::print("  {:<24} {}\n", kind, count);
   print_sections(loaded.scene.model);
   for (std::size_t i = 0; i < model.structures.size(); ++i) print_structure(loaded, simulation, i);
@@ -115,7 +115,7 @@ int check(const SceneArguments& arguments) {
     fmt::print("calibration: {}, {} measured (nsframe calibrate)\n", counted(calibration->parameters.size(), "parameter"),
                calibration->targets.size() == 1 ? "1 frequency" : fmt::format("{} frequencies", calibration->targets.size()));
   }
-  print_solution(loaded, simulation);
+  print_solution(loaded, simulation, reduced.describe());
   return done;
 }
 

@@ -183,9 +183,11 @@ void Assembler::set_load_factor(double factor, VectorX& history) const {
 void Assembler::internal_force(const VectorX& displacement, const VectorX& committed, VectorX& trial, VectorX& force,
                                bool with_tangent) {
   linear_operator_.multiply(displacement, force);
+  if (support_force_.size() > 0) force += support_force_;
   if (nonlinear_.empty()) return;
   tangent_is_current_ = with_tangent;
   full_displacement_.noalias() = model_.dofs.transformation * displacement;
+  if (support_displacement_.size() > 0) full_displacement_ += support_displacement_;
   const int count = static_cast<int>(nonlinear_.size());
   std::vector<std::exception_ptr> failures(static_cast<std::size_t>(count));
 #pragma omp parallel for schedule(static) num_threads(threads_) if (threads_ > 1 && count >= parallel_elements)
@@ -215,7 +217,7 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
 
 RateEnergy Assembler::rate_force(const VectorX& committed, VectorX& trial, const StepSpan& step, VectorX& force) {
   rate_values_.assign(static_cast<std::size_t>(tangent_.nonZeros()), 0.0);
-  full_force_.setZero(model_.dofs.full);
+  VectorX full_force = VectorX::Zero(model_.dofs.full);
   RateEnergy sum;
   Vector12 at_nodes;
   Matrix12 tangent;
@@ -226,10 +228,10 @@ RateEnergy Assembler::rate_force(const VectorX& committed, VectorX& trial, const
                                                          trial.data() + placed.history_begin, step, at_nodes, tangent);
     sum.dissipated += energy.dissipated;
     sum.stored += energy.stored;
-    add_to_nodes(*placed.group, placed.element, at_nodes, full_force_);
+    add_to_nodes(*placed.group, placed.element, at_nodes, full_force);
     scatter(placed, tangent, rate_values_.data());
   }
-  force.noalias() = model_.dofs.transformation_transposed * full_force_;
+  force.noalias() = model_.dofs.transformation_transposed * full_force;
   return sum;
 }
 

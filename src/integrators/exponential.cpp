@@ -11,7 +11,7 @@ namespace nsframe {
 
 namespace {
 
-constexpr int most_follow_ups = 40;      // evaluations until what has no mass rests
+constexpr int most_massless_follow_ups = 40;      // evaluations until what has no mass rests
 constexpr double follow_up = 0.1;        // part of its motion over a step that may be left to the next one
 constexpr double largest_rest = 1e-4;    // of the largest displacement, that may be left
 constexpr double slow_following = 0.3;   // memory from which a tangent is worth its factorization
@@ -72,7 +72,7 @@ void Exponential::evaluate(System& system, const VectorX& massless, const Vector
   next_.force.resize(modes.dofs);
   bool tangent = false;
   double last_change = 0;
-  for (int i = 0; i < most_follow_ups; ++i) {
+  for (int i = 0; i < most_massless_follow_ups; ++i) {
     system.assembler.internal_force(displacement_, committed, trial, internal_, tangent);
     ++evaluations_;
     stiffness_.multiply(displacement_, next_.force);
