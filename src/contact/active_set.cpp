@@ -175,10 +175,7 @@ void share(const Scaled& problem, VectorX& p) {
     idle = idle || p[i] <= 0;
   }
   if (!idle) return;
-  Eigen::CompleteOrthogonalDecomposition<MatrixX> factor;
-  factor.setThreshold(1e-12);
-  factor.compute(MatrixX(problem.W(resting, resting)));
-  const VectorX shared = factor.solve(VectorX(-problem.rhs(resting)));
+  const VectorX shared = RankRevealing<double>(problem.W(resting, resting), 1e-12).solve(-problem.rhs(resting));
   if (shared.minCoeff() >= 0) p(resting) = shared;
 }
 

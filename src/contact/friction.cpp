@@ -47,10 +47,7 @@ class Newton {
       linearise(trial);
       VectorX change;
       if (trial.size() <= few_rows) {
-        Eigen::CompleteOrthogonalDecomposition<MatrixX> factor;
-        factor.setThreshold(1e-13);
-        factor.compute(jacobian_);
-        change = factor.solve(residual_);
+        change = RankRevealing<double>(jacobian_, 1e-13).solve(residual_);
       } else {
         jacobian_.diagonal().array() += 1e-11;
         Eigen::PartialPivLU<MatrixX> factor(jacobian_);

@@ -13,10 +13,7 @@ namespace {
 // Minimum-norm solution of W_AA p_A = -rhs_A on the active pairs; W_AA may be singular. W is scaled to unit diagonal.
 VectorX solve_on(const std::vector<Eigen::Index>& active, const MatrixX& W, const VectorX& rhs) {
   if (active.size() == 1) return VectorX::Constant(1, -rhs[active[0]] / W(active[0], active[0]));
-  Eigen::CompleteOrthogonalDecomposition<MatrixX> factor;
-  factor.setThreshold(1e-12);
-  factor.compute(MatrixX(W(active, active)));
-  return factor.solve(VectorX(-rhs(active)));
+  return RankRevealing<double>(W(active, active), 1e-12).solve(-rhs(active));
 }
 
 }  // namespace

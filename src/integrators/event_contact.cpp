@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "base/errors.hpp"
 #include "contact/impact_law.hpp"
 #include "integrators/event_flow.hpp"
@@ -45,19 +46,15 @@ VectorX EventFlow::solve_forces(const System& system, const std::vector<int>& pa
     if (solution.impulse[i] > 0 || left[i] <= zero) active.push_back(i);
   }
   if (active.size() == 1) return solution.impulse;
-  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-  Matrix G(static_cast<Eigen::Index>(active.size()), modes_.padded);
-  Eigen::Matrix<long double, Eigen::Dynamic, 1> right(G.rows());
+  DenseMatrix<long double> G(static_cast<Eigen::Index>(active.size()), modes_.padded);
+  DenseVector<long double> right(G.rows());
   for (Eigen::Index i = 0; i < G.rows(); ++i) {
     const Eigen::Index a = active[static_cast<std::size_t>(i)];
     const long double scale = 1 / std::sqrt(static_cast<long double>(problem.delassus(a, a)));
     G.row(i) = scale * modes_.gap.row(pairs[static_cast<std::size_t>(a)]).cast<long double>();
     right[i] = -scale * static_cast<long double>(rhs[a]);
   }
-  Eigen::CompleteOrthogonalDecomposition<Matrix> factor;
-  factor.setThreshold(1e-14L);
-  factor.compute(G * G.transpose());
-  const auto scaled = factor.solve(right).eval();
+  const DenseVector<long double> scaled = RankRevealing<long double>(G * G.transpose(), 1e-14L).solve(right);
   if (scaled.minCoeff() < 0) return solution.impulse;
   for (Eigen::Index i = 0; i < G.rows(); ++i) {
     const Eigen::Index a = active[static_cast<std::size_t>(i)];
@@ -191,9 +188,7 @@ void EventFlow::remove_drift() {
   const std::vector<int> rigid = closed_pairs(false);
   if (rigid.empty()) return;
   const VectorX scale = modes_.delassus.diagonal()(rigid).cwiseSqrt().cwiseInverse();
-  Eigen::CompleteOrthogonalDecomposition<MatrixX> factor;
-  factor.setThreshold(1e-12);
-  factor.compute(scale.asDiagonal() * modes_.delassus(rigid, rigid) * scale.asDiagonal());
+  const RankRevealing<double> factor(scale.asDiagonal() * modes_.delassus(rigid, rigid) * scale.asDiagonal(), 1e-12);
   const VectorX gap = modes_.gap * state_.x + contact_.constant, rate = modes_.gap * state_.y;
   const VectorX x = factor.solve(scale.cwiseProduct(VectorX(gap(rigid))).eval()),
                 y = factor.solve(scale.cwiseProduct(VectorX(rate(rigid))).eval());

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "base/errors.hpp"
+#include "integrators/exact_kernel.hpp"
 
 namespace nsframe {
 
@@ -65,9 +67,8 @@ void EventFlow::start(const System& system, const State& committed) {
   }
 }
 
-void EventFlow::set_load(const System& system, double time, double length) {
+void EventFlow::find_load(const System& system, double time, double length, VectorX& f0, VectorX& f1) const {
   const auto& motions = system.model.motions;
-  VectorX &f0 = state_.f0, &f1 = slope_;
   f0 = modes_.static_load;
   f1.setZero(modes_.padded);
   for (std::size_t i = 0; i < motions.size(); ++i) {
@@ -84,7 +85,11 @@ void EventFlow::set_load(const System& system, double time, double length) {
     f0 -= force_.value + (time - force_.time) * force_.slope;
     f1 -= force_.slope;
   }
-  disturbed_ = disturbed_ || f1 != state_.f1;
+}
+
+void EventFlow::set_load(const System& system, double time, double length) {
+  find_load(system, time, length, state_.f0, slope_);
+  disturbed_ = disturbed_ || slope_ != state_.f1;
   std::swap(state_.f1, slope_);
 }
 
@@ -138,6 +143,28 @@ void EventFlow::travel(const System& system, double time, double h, bool startin
   }
 }
 
+bool EventFlow::glide(const System& system, double time, double h, ModalState& end) {
+  const int pairs = modes_.pairs();
+  if (!modes_.couplings.empty() || !contact_.closed.empty()) return false;
+  for (int c = 0; c < pairs; ++c) {
+    if (contact_.touching[static_cast<std::size_t>(c)] || gap_[c] <= h * std::abs(rate_[c])) return false;
+  }
+  piece_.x = state_.x;
+  piece_.y = state_.y;
+  double done = 0;
+  for (const double cut : cuts(system, time, h)) {
+    find_load(system, time + done, cut - done, piece_.f0, piece_.f1);
+    propagator_.step(piece_, cut - done, end);
+    done = cut;
+    if (cut < h) std::swap(piece_, end);
+  }
+  if (pairs == 0) return true;
+  glide_gap_.resize(pairs);
+  glide_rate_.resize(pairs);
+  multiply_gaps(modes_.padded, pairs, modes_.gap.data(), end.x.data(), end.y.data(), glide_gap_.data(), glide_rate_.data());
+  return ((glide_gap_ + contact_.constant - h * glide_rate_.cwiseAbs()).array() > 0).all();
+}
+
 void EventFlow::write(VectorX& displacement, VectorX& velocity) {
   propagator_.coupled().set_rates(state_);
   modes_.shape.multiply(state_.x, state_.y, full_, full_rate_);
@@ -163,7 +190,7 @@ VectorX EventFlow::compliant_forces(const VectorX& gap) const {
   const std::vector<int> springs = closed_pairs(true);
   if (springs.empty()) return forces;
   const MatrixX Y = modes_.compliance(springs, springs);
-  const VectorX closing = -gap(springs), solution = Eigen::CompleteOrthogonalDecomposition<MatrixX>(Y).solve(closing);
+  const VectorX closing = -gap(springs), solution = RankRevealing<double>(Y, machine_epsilon * static_cast<double>(Y.rows())).solve(closing);
   forces(springs) = solution;
   return forces;
 }

@@ -40,6 +40,10 @@ class EventFlow {
   // collide first.
   void travel(const System& system, double time, double h, bool starting, StepResult& result);
 
+  // The modes after h [s], where no pair may touch on the way, into `end`; the flow itself stays where it is. false, and nothing else,
+  // where a pair might, or where damping ties modes together.
+  bool glide(const System& system, double time, double h, ModalState& end);
+
   // Of the pairs since clear_impulse() [N s].
   const VectorX& impulse() const { return step_impulse_; }
   void clear_impulse() { step_impulse_.setZero(); }
@@ -52,6 +56,7 @@ class EventFlow {
  private:
   // The load of the part of the step that begins at `time`.
   void set_load(const System& system, double time, double length);
+  void find_load(const System& system, double time, double length, VectorX& f0, VectorX& f1) const;
   // Times in (0, h] after `time` where the step is cut: samples of the motions, and its end.
   std::vector<double> cuts(const System& system, double time, double h) const;
   void advance(const System& system, double time, double length, StepResult& result);
@@ -84,6 +89,8 @@ class EventFlow {
   bool disturbed_ = true;
   ModalForce force_;
   VectorX full_, full_rate_, slope_;  // room for write() and set_load()
+  ModalState piece_;                  // room for glide()
+  VectorX glide_gap_, glide_rate_;
 };
 
 }  // namespace nsframe

@@ -27,8 +27,7 @@ void separate_equal_modes(BlockModes& modes, const MatrixX& damping) {
     while (last < count && modes.square[last] - modes.square[first] <= 1e-9 * modes.square[last]) ++last;
     if (last - first > 1) {
       const MatrixX shapes = modes.shape.middleCols(first, last - first);
-      const Eigen::SelfAdjointEigenSolver<MatrixX> solver(shapes.transpose() * damping * shapes);
-      modes.shape.middleCols(first, last - first) = shapes * solver.eigenvectors();
+      modes.shape.middleCols(first, last - first) = shapes * SymmetricEigen<double>(shapes.transpose() * damping * shapes).vectors;
     }
     first = last;
   }

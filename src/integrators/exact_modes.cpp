@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/decompositions.hpp"
 #include "base/dense_kernel.hpp"
 #include "base/errors.hpp"
 #include "integrators/exact_damping.hpp"
@@ -18,8 +19,8 @@ constexpr double slow = 1;                  // [rad/s]: below, f / w^2 would los
 
 template <class Real>
 BlockModes solve_block(const MatrixX& stiffness, const MatrixX& mass, bool may_move_freely) {
-  using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-  using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+  using Matrix = DenseMatrix<Real>;
+  using Vector = DenseVector<Real>;
   const Eigen::Index n = mass.rows();
   Vector scale(n);
   for (Eigen::Index i = 0; i < n; ++i) scale[i] = mass(i, i) > 0 ? 1 / std::sqrt(static_cast<Real>(mass(i, i))) : Real(1);
@@ -31,9 +32,9 @@ BlockModes solve_block(const MatrixX& stiffness, const MatrixX& mass, bool may_m
     for (Eigen::Index i = 0; i < n; ++i) inertia[i] = mass(i, i) > 0 ? Real(1) : Real(0);
   } else {
     const Matrix scaled = scale.asDiagonal() * mass.cast<Real>() * scale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(scaled);
-    basis = solver.eigenvectors();
-    inertia = solver.eigenvalues();
+    SymmetricEigen<Real> eigen(scaled);
+    basis = std::move(eigen.vectors);
+    inertia = std::move(eigen.values);
   }
   basis = (scale.asDiagonal() * basis).eval();
   std::vector<Eigen::Index> massive, massless;
@@ -55,15 +56,15 @@ BlockModes solve_block(const MatrixX& stiffness, const MatrixX& mass, bool may_m
     modes.flexibility = MatrixX::Zero(n, n);
   }
   condensed = (Real(0.5) * (condensed + condensed.transpose())).eval();
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(condensed);
-  Vector square = solver.eigenvalues();
+  const SymmetricEigen<Real> eigen(condensed);
+  Vector square = eigen.values;
   if (square.size() > 0) {
     // rounding of K alone; of a structure with supports, no mode is a rigid-body motion
     const Real zero = (may_move_freely ? Real(1e-11) : Real(0)) * square[square.size() - 1];
     for (Real& value : square) value = value <= zero ? Real(0) : value;
   }
   modes.square = square.template cast<double>();
-  modes.shape = Matrix(follow * solver.eigenvectors()).template cast<double>();
+  modes.shape = Matrix(follow * eigen.vectors).template cast<double>();
   modes.massless = light.template cast<double>();
   return modes;
 }

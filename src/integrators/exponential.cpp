@@ -76,18 +76,24 @@ void Exponential::project(Residual& r) {
   r.modal.setZero(modes.padded);
   modes.shape_transposed.multiply(padded_, r.modal);
   padded_.setZero();
-  r.massless.setZero(modes.dofs);
-  if (modes.massless > 0) modes.massless_flexibility.multiply(r.force, r.massless);
 }
 
-void Exponential::evaluate(System& system, const VectorX& massless, const VectorX& committed, VectorX& trial) {
+void Exponential::take(Residual& r) {
+  project(r);
+  r.massless.setZero(flow_.modes().dofs);
+  if (flow_.modes().massless > 0) flow_.modes().massless_flexibility.multiply(r.force, r.massless);
+}
+
+void Exponential::evaluate(System& system, const VectorX& x, const VectorX& massless, const VectorX& committed, VectorX& trial) {
   const ExactModes& modes = flow_.modes();
   const MatrixX& N = modes.massless_basis;
-  modes.shape.multiply(flow_.modal().x, padded_);
+  modes.shape.multiply(x, padded_);
   displacement_ = padded_.head(modes.dofs) + modes.rest - massless;
   padded_.setZero();
+  massless_ = massless;
   system.assembler.start_step(committed, trial);
   next_.force.resize(modes.dofs);
+  next_.massless.setZero(modes.dofs);
   bool tangent = false;
   double last_change = 0;
   for (int i = 0; i < most_rest_evaluations; ++i) {
@@ -97,14 +103,15 @@ void Exponential::evaluate(System& system, const VectorX& massless, const Vector
     next_.force = internal_ - next_.force;
     project(next_);
     if (modes.massless == 0) return;
+    modes.massless_flexibility.multiply(internal_, follow_);
+    follow_ -= modes.rest;
+    next_.massless = massless_ + follow_;  // F r, as F K leaves what has no mass and takes nothing from the modes
     if (tangent) {
       massless_stiffness_ = N.transpose() * (system.assembler.tangent() * N);
       massless_tangent_.compute(massless_stiffness_);
     }
     if (massless_stiffness_.size() > 0) {
       follow_ = N * massless_tangent_.solve(VectorX(N.transpose() * (internal_ - system.static_load)));
-    } else {
-      modes.massless_flexibility.multiply(VectorX(internal_ - system.static_load), follow_);
     }
     const double change = follow_.cwiseAbs().maxCoeff();
     if (i > 0 && last_change > 0 && !tangent) memory_ = std::min(1.0, change / last_change);
@@ -115,6 +122,7 @@ void Exponential::evaluate(System& system, const VectorX& massless, const Vector
     }
     tangent = i > 0 && memory_ > slow_following;
     displacement_ -= follow_;
+    massless_ += follow_;
     last_change = change;
   }
   throw ConvergenceError("what has no mass does not come to rest: give it mass, or use scheme = \"moreau-jean\"");
@@ -129,7 +137,7 @@ void Exponential::start(System& system, const State& committed) {
   now_.force.resize(internal_.size());
   stiffness_.multiply(committed.displacement, now_.force);
   now_.force = internal_ - now_.force;
-  project(now_);
+  take(now_);
   modal_rate_ = VectorX::Zero(now_.modal.size());
   massless_rate_ = VectorX::Zero(now_.massless.size());
   level_ = least_level_;
@@ -139,22 +147,26 @@ void Exponential::start(System& system, const State& committed) {
   padded_.setZero();
   memory_ = 1;
   massless_stiffness_.resize(0, 0);
-  active_ = false;
   follow_ = VectorX::Zero(modes.dofs);
   if (modes.massless == 0) return;
-  evaluate(system, now_.massless, committed.history, history_);
+  evaluate(system, flow_.modal().x, now_.massless, committed.history, history_);
   now_ = next_;
 }
 
 bool Exponential::advance(System& system, double time, double s, bool starting, const VectorX& committed, VectorX& trial,
                           StepResult& result) {
-  flow_.copy_to(before_);
   force_ = {now_.modal, modal_rate_, time};
   flow_.set_force(force_);
-  tried_ = StepResult{};
-  flow_.travel(system, time, s, starting, tried_);
-  evaluate(system, now_.massless + s * massless_rate_, committed, trial);
-  flow_.go_back(before_);
+  const VectorX& still = expected_massless_ = now_.massless + s * massless_rate_;
+  if (!starting && flow_.glide(system, time, s, expected_)) {
+    evaluate(system, expected_.x, still, committed, trial);
+  } else {
+    flow_.copy_to(before_);
+    tried_ = StepResult{};
+    flow_.travel(system, time, s, starting, tried_);
+    evaluate(system, flow_.modal().x, still, committed, trial);
+    flow_.go_back(before_);
+  }
   const double error = error_ratio(next_.modal - now_.modal - s * modal_rate_, s);
   if (error > 1 && level_ < exponential_levels) {
     ++level_;
@@ -169,7 +181,7 @@ bool Exponential::advance(System& system, double time, double s, bool starting, 
   result.strain += massless_work;
   result.input += massless_work;
   std::swap(now_, next_);
-  if (error < 0.125 && level_ > (active_ ? active_level_ : least_level_)) --level_;
+  if (error < 0.125 && level_ > least_level_) --level_;
   return true;
 }
 
@@ -203,7 +215,6 @@ void Exponential::make_parts(System& system, const State& committed, State& tria
   const VectorX* from = &committed.history;
   VectorX *to = &trial.history, *other = &history_;
   for (long done = 0; done < whole;) {
-    level_ = std::max(level_, active_ ? active_level_ : least_level_);
     long part = whole >> level_;
     while (done % part != 0) part /= 2;
     const double time = committed.time + h * static_cast<double>(done) / whole, s = h * static_cast<double>(part) / whole;
@@ -227,7 +238,6 @@ void Exponential::save(Snapshot& snapshot) const {
   snapshot.put("exponential.memory", memory_);
   snapshot.put("exponential.massless_stiffness", VectorX(massless_stiffness_.reshaped()));
   snapshot.put("exponential.level", static_cast<double>(level_));
-  snapshot.put("exponential.active", active_ ? 1.0 : 0.0);
   snapshot.put("exponential.displacement", last_displacement_);
   snapshot.put("exponential.velocity", last_velocity_);
 }
@@ -250,8 +260,7 @@ void Exponential::restore(System& system, const Snapshot& snapshot) {
     massless_tangent_.compute(massless_stiffness_);
   }
   level_ = static_cast<int>(snapshot.number("exponential.level"));
-  active_ = snapshot.number("exponential.active") > 0;
-  project(now_);
+  take(now_);
   history_ = system.assembler.virgin_history();
   follow_ = VectorX::Zero(modes.dofs);
   internal_ = VectorX::Zero(modes.dofs);
@@ -265,8 +274,7 @@ std::vector<std::string> Exponential::describe() const {
                                 unstable_ / (2 * pi)));
   }
   if (options_.accuracy > 0) {
-    lines.push_back(fmt::format("parts of steps by an error estimate, accuracy {:g} of the peak; at least {} once something yields", options_.accuracy,
-                                1 << active_level_));
+    lines.push_back(fmt::format("parts of steps by an error estimate, accuracy {:g} of the peak", options_.accuracy));
   }
   return lines;
 }

@@ -33,12 +33,13 @@ class Exponential : public Scheme {
   struct Residual {
     VectorX force, modal, massless;     // r [N], Phi' r, F r
   };
-  void project(Residual& r);
+  void project(Residual& r);  // fills r.modal
+  void take(Residual& r);     // fills r.modal and r.massless
   void find_steps(const System& system);
   void start(System& system, const State& committed);
-  // Evaluates the elements at the flow's end, with histories; what has no mass stands where `massless` = F r wants it, and is
+  // Evaluates the elements where the modes are at x, with histories; what has no mass stands where `massless` = F r wants it, and is
   // followed until it rests: by K, or by a tangent where K does not lead there quickly. Fills next_.
-  void evaluate(System& system, const VectorX& massless, const VectorX& committed, VectorX& trial);
+  void evaluate(System& system, const VectorX& x, const VectorX& massless, const VectorX& committed, VectorX& trial);
   void make_parts(System& system, const State& committed, State& trial, double h, bool fresh, StepResult& result);
   // One part of a step; false, with everything as before, when its error is too large.
   bool advance(System& system, double time, double s, bool starting, const VectorX& committed, VectorX& trial, StepResult& result);
@@ -49,9 +50,9 @@ class Exponential : public Scheme {
   EventFlow flow_;
   BlockOperator stiffness_;             // K
   int least_level_ = 0;                 // stable parts of dt: dt / 2^level
-  int active_level_ = 0;                // parts that sample all modes, once something has yielded
   double unstable_ = 0;                 // frequency of the mode that wants least_level_ [rad/s]
   VectorX flexibility_;                 // 1 / w^2 of oscillators [s2]
+  VectorX inverse_frequency_;           // 1 / w of oscillators, at most 1 s
   VectorX mode_size_;                   // largest entry of every mode
   VectorX mode_share_;                  // of nonlinear elements in the stiffness of every mode
   double scale_ = 0;                    // displacement under static loads and peak ground accelerations, statically [m]
@@ -63,13 +64,13 @@ class Exponential : public Scheme {
   Eigen::PartialPivLU<MatrixX> massless_tangent_;
   double peak_ = 0;                     // largest displacement so far [m]
   int level_ = 0;
-  bool active_ = false;                 // something has yielded
   VectorX last_displacement_, last_velocity_;
   // work space
   Residual next_;
-  VectorX follow_, history_, displacement_, internal_, padded_;
+  VectorX massless_, expected_massless_, follow_, history_, displacement_, internal_, padded_;
   ModalForce force_;
   FlowState before_;
+  ModalState expected_;
   StepResult tried_;
   int evaluations_ = 0;
 };

@@ -9,11 +9,8 @@ namespace nsframe {
 
 namespace {
 
-constexpr double fastest_growth = 1;     // [1/s], of any mode while all nonlinear elements yield
-constexpr double samples = 4;            // of a period of the fastest mode, with `accuracy`
-// Shares of accuracy x peak: what is allowed to go wrong in a second, and in the force of one part (theory.md, 235).
-constexpr double error_rate = 0.1, force_error = 0.1;
-constexpr double guard = 0.02;           // part of the peak, without `accuracy`
+constexpr double fastest_growth = 1;  // [1/s], of any mode while all nonlinear elements yield
+constexpr double guard = 0.02;       // part of the peak, without `accuracy`
 
 }  // namespace
 
@@ -35,8 +32,8 @@ double exponential_radius(double angle, double share, double kept) {
 void Exponential::find_steps(const System& system) {
   const ExactModes& modes = flow_.modes();
   mode_size_ = mode_share_ = VectorX::Zero(modes.padded);
+  inverse_frequency_ = modes.square.cwiseMax(1.0).cwiseSqrt().cwiseInverse();
   VectorX unit = mode_size_, linear(modes.dofs);
-  double fastest = 0;
   for (int k = 0; k < modes.dofs; ++k) {
     unit[k] = 1;
     modes.shape.multiply(unit, padded_);
@@ -46,7 +43,6 @@ void Exponential::find_steps(const System& system) {
     if (mode_size_[k] == 0 || modes.square[k] == 0) continue;
     system.assembler.linear_force(shape, linear);
     mode_share_[k] = std::clamp(1 - shape.dot(linear) / modes.square[k], 0.0, 1.0);
-    fastest = std::max(fastest, std::sqrt(modes.square[k]));
     const auto grows = [&](double s) {
       for (const double kept : {0.01, 0.25, 0.5, 0.75}) {
         if (std::log(exponential_radius(std::sqrt(modes.square[k]) * s, mode_share_[k], kept)) > fastest_growth * s) return true;
@@ -58,24 +54,21 @@ void Exponential::find_steps(const System& system) {
       unstable_ = std::sqrt(modes.square[k]);
     }
   }
-  active_level_ = least_level_;
-  while (options_.accuracy > 0 && active_level_ < exponential_levels && std::ldexp(options_.dt, -active_level_) * fastest * samples > 2 * pi) ++active_level_;
   level_ = least_level_;
 }
 
 double Exponential::error_ratio(const VectorX& unexpected, double s) {
-  const ExactModes& modes = flow_.modes();
-  double moved = 0, held = 0;  // by the wrong impulse of this part; by a wrong force that stays [m]
-  for (int k = 0; k < modes.dofs; ++k) {
-    const double force = mode_size_[k] * std::abs(unexpected[k]), square = std::max(modes.square[k], 1.0);
-    moved += force * std::min(0.5 * s, 2 / (square * s)) / std::sqrt(square);
-    held += force / square;
-  }
   const double size = std::max(peak_, scale_);
   if (size == 0) return 0;
-  active_ = active_ || held > exponential_rest * size;
+  const auto force = mode_size_.array() * unexpected.array().abs();
+  const auto lag = inverse_frequency_.array();
+  const double moved = (force * (lag.square() * (2 / s)).min(0.5 * s) * lag).sum();  // by the wrong impulse of this part [m]
   if (options_.accuracy == 0) return moved / (guard * size);
-  return std::max(moved / (error_rate * s), held / force_error) / (options_.accuracy * size);
+  const double held = (force * lag.square()).sum();                                    // by a wrong force that stays [m]
+  const ModalState& start = flow_.modal();
+  const auto swing = (start.x - flexibility_.cwiseProduct(start.f0)).array().abs() + start.y.array().abs() * lag;
+  const double hidden = ((mode_size_.cwiseProduct(mode_share_)).array() * (s * s / 8 * lag.square().inverse()).min(1.0) * swing).sum();
+  return std::max(moved / s, held + hidden) / (options_.accuracy * size);
 }
 
 }  // namespace nsframe

@@ -21,9 +21,7 @@ void HeldSolution::hold(const Contacts& contacts, const std::vector<int>& pairs)
   const MatrixX scaled = scale_.asDiagonal() * W * scale_.asDiagonal();
   cholesky_.compute(scaled);
   redundant_ = cholesky_.info() != Eigen::Success || cholesky_.matrixLLT().diagonal().minCoeff() < least_pivot;
-  if (!redundant_) return;
-  set_.setThreshold(1e-12);
-  set_.compute(scaled);
+  if (redundant_) set_.compute(scaled, 1e-12);
 }
 
 VectorX HeldSolution::multipliers(const VectorX& gap) const {

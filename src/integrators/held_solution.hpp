@@ -27,7 +27,7 @@ class HeldSolution {
   VectorX scale_;
   bool redundant_ = false;                   // to rounding: then by `set_`
   Eigen::LLT<MatrixX> cholesky_;             // of the scaled H J^-1 H'
-  Eigen::CompleteOrthogonalDecomposition<MatrixX> set_;
+  RankRevealing<double> set_;
   VectorX response_;
 };
 

@@ -65,7 +65,7 @@ VectorX ImpactMatrix::follow(const Contacts& contacts, const std::vector<int>& h
     gap[a] = row(a).dot(motion);
     for (Eigen::Index b = 0; b < count; ++b) flexibility(a, b) = row(a).dot(VectorX(responses.col(b)));
   }
-  const VectorX pull = Eigen::CompleteOrthogonalDecomposition<MatrixX>(flexibility).solve(gap);
+  const VectorX pull = RankRevealing<double>(flexibility, machine_epsilon * static_cast<double>(count)).solve(gap);
   motion -= responses * pull;
   if (forces) (*forces)(pressed) = -pull;
   return motion;

@@ -149,7 +149,7 @@ const SustainedContact::SetSolver& SustainedContact::solver(const std::vector<in
     result.scale[c] = 1 / std::sqrt(compliant ? modes_.compliance(pair, pair) : modes_.delassus(pair, pair));
   }
   // row (node i, pair c), column (force at node j of pair d); in long double, as a heavy mass on a light one makes it nearly singular
-  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  using Matrix = DenseMatrix<long double>;
   const Matrix G = modes_.gap(pairs, Eigen::all).cast<long double>(), delassus = G * G.transpose();
   Matrix matrix(panel_points * count, panel_points * count);
   for (int i = 0; i < panel_points; ++i) {
@@ -170,8 +170,7 @@ const SustainedContact::SetSolver& SustainedContact::solver(const std::vector<in
       }
     }
   }
-  result.factor.setThreshold(1e-13L);
-  result.factor.compute(matrix);
+  result.factor.compute(matrix, 1e-13L);
   return solvers_.emplace(pairs, std::move(result)).first->second;
 }
 
@@ -179,7 +178,7 @@ ContactForces SustainedContact::solve(const ModalState& state, const VectorX& ga
   ContactForces forces{pairs, {}, length_, force_noise(state, pairs)};
   const auto count = static_cast<Eigen::Index>(pairs.size());
   const SetSolver& set = solver(pairs);
-  Eigen::Matrix<long double, Eigen::Dynamic, 1> rhs(panel_points * count);
+  DenseVector<long double> rhs(panel_points * count);
   VectorX acceleration(modes_.padded);
   for (int i = 0; i < panel_points; ++i) {
     propagator_.step(state, nodes_[static_cast<std::size_t>(i)], at_node_);
@@ -191,7 +190,7 @@ ContactForces SustainedContact::solve(const ModalState& state, const VectorX& ga
       rhs[i * count + c] = -static_cast<long double>(set.scale[c] * wrong);
     }
   }
-  const Eigen::Matrix<long double, Eigen::Dynamic, 1> solution = set.factor.solve(rhs);
+  const DenseVector<long double> solution = set.factor.solve(rhs);
   forces.values.resize(panel_points, count);
   for (int i = 0; i < panel_points; ++i) {
     for (Eigen::Index c = 0; c < count; ++c) forces.values(i, c) = set.scale[c] * static_cast<double>(solution[i * count + c]);
@@ -211,10 +210,7 @@ VectorX SustainedContact::force_noise(const ModalState& state, const std::vector
     scale[c] = compliant ? 0 : 1 / std::sqrt(modes_.delassus(pair, pair));
     acceleration[c] = 16 * std::numeric_limits<double>::epsilon() * modes_.gap_size.row(pair).dot(terms);
   }
-  Eigen::CompleteOrthogonalDecomposition<MatrixX> factor;
-  factor.setThreshold(1e-12);
-  factor.compute(scale.asDiagonal() * modes_.delassus(pairs, pairs) * scale.asDiagonal());
-  const MatrixX inverse = factor.pseudoInverse();
+  const MatrixX inverse = RankRevealing<double>(scale.asDiagonal() * modes_.delassus(pairs, pairs) * scale.asDiagonal(), 1e-12).pseudo_inverse();
   return scale.cwiseProduct(inverse.cwiseAbs() * scale.cwiseProduct(acceleration));
 }
 

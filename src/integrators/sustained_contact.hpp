@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "base/decompositions.hpp"
 #include "integrators/exact_propagator.hpp"
 
 namespace nsframe {
@@ -48,7 +49,7 @@ class SustainedContact {
 
  private:
   struct SetSolver {
-    Eigen::CompleteOrthogonalDecomposition<Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>> factor;
+    RankRevealing<long double> factor;
     VectorX scale;
   };
   const SetSolver& solver(const std::vector<int>& pairs);
