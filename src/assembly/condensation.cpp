@@ -45,39 +45,51 @@ std::vector<bool> candidates_of(const Model& model) {
   return may;
 }
 
-// The pattern of a stiffness matrix as neighbours of its DOFs, which are taken out one after the other.
+// The pattern of a stiffness matrix as neighbours of its DOFs, in any order, which are taken out one after the other.
 class Graph {
  public:
-  explicit Graph(const SparseMatrix& matrix) : neighbours_(static_cast<std::size_t>(matrix.rows())) {
+  explicit Graph(const SparseMatrix& matrix) : neighbours_(static_cast<std::size_t>(matrix.rows())), mark_(neighbours_.size(), 0) {
     for (int j = 0; j < matrix.outerSize(); ++j) {
       for (SparseMatrix::InnerIterator entry(matrix, j); entry; ++entry) {
-        if (entry.row() != entry.col()) neighbours_[static_cast<std::size_t>(j)].insert(static_cast<int>(entry.row()));
+        if (entry.row() != entry.col()) neighbours_[static_cast<std::size_t>(j)].push_back(static_cast<int>(entry.row()));
       }
     }
   }
-  std::set<int> boundary(const std::vector<int>& dofs) const {
-    std::set<int> around;
-    for (const int i : dofs) around.insert(neighbours_[static_cast<std::size_t>(i)].begin(), neighbours_[static_cast<std::size_t>(i)].end());
-    for (const int i : dofs) around.erase(i);
+  // Neighbours of a set of DOFs that are not in it.
+  std::vector<int> boundary(const std::vector<int>& dofs) {
+    std::vector<int> around;
+    mark_all(dofs);
+    for (const int i : dofs) {
+      for (const int j : neighbours_[static_cast<std::size_t>(i)]) {
+        if (mark(j)) around.push_back(j);
+      }
+    }
     return around;
   }
-  // Entries of one triangle that go less those that come.
-  long gain(const std::vector<int>& dofs, const std::set<int>& around) const {
-    long inside = 0, links = 0, fill = 0;
-    for (const int i : dofs) {
-      for (const int j : neighbours_[static_cast<std::size_t>(i)]) (around.count(j) ? links : inside) += 1;
-    }
-    for (auto i = around.begin(); i != around.end(); ++i) {
-      for (auto j = std::next(i); j != around.end(); ++j) fill += !neighbours_[static_cast<std::size_t>(*i)].count(*j);
-    }
-    return static_cast<long>(dofs.size()) + inside / 2 + links - fill;
+  // Entries of one triangle that go less those that come; `around` is the boundary.
+  long gain(const std::vector<int>& dofs, const std::vector<int>& around) {
+    const auto own = static_cast<long>(dofs.size()), other = static_cast<long>(around.size());
+    mark_all(dofs);
+    const long inside = marked_neighbours(dofs) / 2;
+    long links = 0;
+    for (const int i : dofs) links += static_cast<long>(neighbours_[static_cast<std::size_t>(i)].size());
+    links -= 2 * inside;
+    mark_all(around);
+    const long fill = other * (other - 1) / 2 - marked_neighbours(around) / 2;
+    return own + inside + links - fill;
   }
-  void take_out(const std::vector<int>& dofs, const std::set<int>& around) {
+  void take_out(const std::vector<int>& dofs, const std::vector<int>& around) {
     for (const int i : around) {
-      std::set<int>& own = neighbours_[static_cast<std::size_t>(i)];
-      for (const int j : dofs) own.erase(j);
-      own.insert(around.begin(), around.end());
-      own.erase(i);
+      std::vector<int>& own = neighbours_[static_cast<std::size_t>(i)];
+      mark_all(dofs);
+      mark(i);
+      std::vector<int> left;
+      for (const std::vector<int>* list : {static_cast<const std::vector<int>*>(&own), &around}) {
+        for (const int j : *list) {
+          if (mark(j)) left.push_back(j);
+        }
+      }
+      own = std::move(left);
     }
     for (const int i : dofs) neighbours_[static_cast<std::size_t>(i)].clear();
   }
@@ -98,7 +110,26 @@ class Graph {
   }
 
  private:
-  std::vector<std::set<int>> neighbours_;
+  void mark_all(const std::vector<int>& dofs) {
+    ++stamp_;
+    for (const int i : dofs) mark(i);
+  }
+  // False when it was marked since the last mark_all() began.
+  bool mark(int dof) {
+    int& own = mark_[static_cast<std::size_t>(dof)];
+    return own != stamp_ && (own = stamp_);
+  }
+  long marked_neighbours(const std::vector<int>& dofs) const {
+    long count = 0;
+    for (const int i : dofs) {
+      for (const int j : neighbours_[static_cast<std::size_t>(i)]) count += mark_[static_cast<std::size_t>(j)] == stamp_;
+    }
+    return count;
+  }
+
+  std::vector<std::vector<int>> neighbours_;
+  std::vector<int> mark_;
+  int stamp_ = 0;
 };
 
 // What one solution and one product with the stiffness read.
@@ -123,7 +154,7 @@ std::vector<bool> choose_condensed(Graph& graph, const std::vector<bool>& candid
   }
   std::set<std::pair<long, int>> queue;  // loss, node; losses may be out of date
   const auto put = [&](int node, const std::vector<int>& dofs) {
-    const std::set<int> around = graph.boundary(dofs);
+    const std::vector<int> around = graph.boundary(dofs);
     if (around.size() <= widest) queue.insert({-graph.gain(dofs, around), node});
   };
   for (const auto& [node, dofs] : groups) put(node, dofs);
@@ -132,7 +163,7 @@ std::vector<bool> choose_condensed(Graph& graph, const std::vector<bool>& candid
     queue.erase(queue.begin());
     const auto found = groups.find(node);
     if (found == groups.end()) continue;
-    const std::set<int> around = graph.boundary(found->second);
+    const std::vector<int> around = graph.boundary(found->second);
     if (around.size() > widest) continue;
     const long now = -graph.gain(found->second, around);
     if (now > loss) {
