@@ -44,6 +44,9 @@ struct SectionResult {
   double position = 0;            // along the element, in [0, 1]
   Vector3 deformation = Vector3::Zero();  // e0 [-], kz, ky [1/m]
   Vector3 force = Vector3::Zero();        // N [N], Mz, My [N m]
+  bool with_shear = false;        // has laws of shear or torsion beside its fibers; else the next two stay 0
+  Vector3 shear_deformation = Vector3::Zero();  // along local y, z [-], twist [rad/m]; 0 where the section is rigid in shear
+  Vector3 shear_force = Vector3::Zero();        // dMz/dx, dMy/dx [N], T [N m]
   double peak_strain_ratio = 0;   // largest |strain| of a fiber over its yield strain, at present (no envelope)
   double yielded = 0;             // 1 when a fiber carries plastic strain, else 0
 };

@@ -360,7 +360,14 @@ std::vector<SectionResult> ForceBeamsOf<n>::basic_sections(int element, const Ve
   const Element& e = element_at(element);
   const Head<n> head(const_cast<double*>(history));
   std::vector<SectionResult> results;
-  for (int i = 0; i < e.points(); ++i) results.push_back(section_result(e, i, head.section_deformation(i).template head<3>(), history));
+  for (int i = 0; i < e.points(); ++i) {
+    SectionResult& result = results.emplace_back(section_result(e, i, head.section_deformation(i).template head<3>(), history));
+    if constexpr (n == 6) {
+      result.with_shear = true;
+      result.shear_deformation = head.section_deformation(i).template tail<3>();
+      result.shear_force = head.section_force(i).template tail<3>();
+    }
+  }
   return results;
 }
 

@@ -2,7 +2,7 @@
 // time step adds comes from respond_rate(), which only springs, links and trusses call (elements/element_group.hpp).
 // Such a law has, beside what wrapper.hpp asks of laws without SIMD kernel,
 //   respond_rate(strain, committed, trial, step)
-// and a history of two doubles: the strain, and the stress that the last step left.
+// and a history that begins with two doubles: the strain, and the stress that the last step left.
 #pragma once
 
 #include <algorithm>

@@ -87,17 +87,6 @@ void assemble_constants(Model& model, const VectorX& concentrated_mass, const st
   model.gravity_statically_first = gravity.statically_first;
 }
 
-void add_motions(Model& model, const std::vector<MotionDescription>& motions) {
-  for (const MotionDescription& item : motions) {
-    GroundMotion motion{item.source, item.direction, item.dt, item.acceleration, {}};
-    motion.prepare();
-    VectorX load = VectorX::Zero(model.dofs.size());
-    for (int k = 0; k < 3; ++k) load -= item.direction[k] * model.inertia[static_cast<std::size_t>(k)];
-    model.motion_load.push_back(std::move(load));
-    model.motions.push_back(std::move(motion));
-  }
-}
-
 double Model::total_mass() const {
   double sum = 0;
   for (int i = 0; i < nodes.size(); ++i) sum += nodal_mass[6 * i];

@@ -1,4 +1,4 @@
-// What of a model is assembled once: masses, dashpots, weights, and the loads of base motions.
+// What of a model is assembled once: masses, dashpots, weights.
 #pragma once
 
 #include "models/build_elements.hpp"
@@ -12,7 +12,5 @@ void share_member_masses(Model& model, const std::vector<ElementMass>& members);
 // Mass, damping and static loads in free DOFs. `concentrated_mass`: of the nodes, full DOFs, without the members' own.
 void assemble_constants(Model& model, const VectorX& concentrated_mass, const std::vector<ElementMass>& members,
                         const GravityDescription& gravity);
-
-void add_motions(Model& model, const std::vector<MotionDescription>& motions);
 
 }  // namespace nsframe

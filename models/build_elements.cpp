@@ -357,8 +357,8 @@ void GroupBuilder::add(const SpringDescription& spring, const ElementNodes& node
   group<Springs>(fmt::format("spring {} {} {}", kind.linear, kind.rates, kind.p_delta), kind).add(nodes, id, std::move(properties));
 }
 
-std::vector<std::unique_ptr<const ElementGroup>> GroupBuilder::take() {
-  std::vector<std::unique_ptr<const ElementGroup>> taken;
+std::vector<std::shared_ptr<const ElementGroup>> GroupBuilder::take() {
+  std::vector<std::shared_ptr<const ElementGroup>> taken;
   for (auto& [key, group] : groups_) taken.push_back(std::move(group));
   groups_.clear();
   return taken;

@@ -48,7 +48,7 @@ class GroupBuilder {
            const std::string& id, const std::vector<const LoadDescription*>& loads);
   void add(const SpringDescription& spring, const ElementNodes& nodes, const Vector3& end_i, const Vector3& end_j,
            const std::string& id);
-  std::vector<std::unique_ptr<const ElementGroup>> take();
+  std::vector<std::shared_ptr<const ElementGroup>> take();
   const std::vector<ElementMass>& masses() const { return masses_; }
 
  private:

@@ -8,6 +8,7 @@
 #include "models/build_constants.hpp"
 #include "models/build_contacts.hpp"
 #include "models/build_elements.hpp"
+#include "models/build_motions.hpp"
 #include "models/constraints.hpp"
 #include "models/dof_names.hpp"
 #include "models/model.hpp"
@@ -53,13 +54,20 @@ class ModelBuilder {
     lay_out_histories();
     find_structures();
     release_unstressed_rotations();
+    const std::vector<MovedSupports> moved = find_moved_supports(description_.motions, model_.nodes, fixed_, diagnostics_);
+    for (const MovedSupports& supports : moved) {
+      for (const auto& [dof, part] : supports.dofs) {
+        fixed_[static_cast<std::size_t>(dof)] = false;
+        driven_.insert(dof);
+      }
+    }
     number_dofs();
     for (const StructureDescription& structure : description_.structures) set_initial_values(structure);
     model_.contacts = build_contacts(description_, model_, diagnostics_);
     require_freedom();
     diagnostics_.throw_if_any();
     assemble_constants(model_, concentrated_mass_, groups_.masses(), description_.gravity);
-    add_motions(model_, description_.motions);
+    add_motions(model_, description_.motions, moved, diagnostics_);
     build_stages(description_, model_, diagnostics_);
     diagnostics_.throw_if_any();
     return std::move(model_);
@@ -94,6 +102,7 @@ class ModelBuilder {
   std::set<std::string> ids_;
   std::vector<bool> mentioned_;                    // nodes that something refers to
   std::vector<bool> fixed_;                        // full DOFs
+  std::set<int> driven_;                           // full DOFs that a motion prescribes, which are no longer fixed_
   std::vector<NodeConstraint> constraints_;
   VectorX concentrated_mass_;                      // of nodes, without the members' own
 };
@@ -344,7 +353,7 @@ void ModelBuilder::number_dofs() {
 }
 
 void ModelBuilder::require_freedom() {
-  if (!diagnostics_.empty() || model_.dofs.size() > 0) return;
+  if (!diagnostics_.empty() || model_.dofs.size() > static_cast<int>(driven_.size())) return;
   diagnostics_.error(description_.structures.empty() ? Location{} : description_.structures.front().at,
                      description_.structures.empty() ? "there is no structure"
                                                      : "nothing can move: supports hold every degree of freedom");
@@ -357,7 +366,7 @@ void ModelBuilder::set_initial_values(const StructureDescription& structure) {
       if (at < 0) continue;
       const auto free = std::find_if(model_.dofs.free.begin(), model_.dofs.free.end(),
                                      [&](const FreeDof& dof) { return dof.node == at && dof.direction == item.dof; });
-      if (free == model_.dofs.free.end()) {
+      if (free == model_.dofs.free.end() || driven_.count(6 * at + item.dof) > 0) {
         diagnostics_.error(item.node.at, fmt::format("{} of node '{}.{}' is not free: its initial value cannot be set",
                                                      node_dof_names[static_cast<std::size_t>(item.dof)], structure.name, item.node.name));
         continue;

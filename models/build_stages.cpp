@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "models/build_motions.hpp"
 #include "models/dof_names.hpp"
 #include "models/model.hpp"
 
@@ -22,7 +23,7 @@ int find_node(const Model& model, const Reference& reference, Diagnostics& diagn
 int free_dof(const Model& model, const Reference& reference, int dof, const char* what, Diagnostics& diagnostics) {
   const int node = find_node(model, reference, diagnostics);
   if (node < 0) return -1;
-  if (!model.dofs.fixed(6 * node + dof)) return 6 * node + dof;
+  if (!model.dofs.fixed(6 * node + dof) && !prescribed(model, 6 * node + dof)) return 6 * node + dof;
   diagnostics.error(reference.at, fmt::format("{} of node '{}' is held: {}", node_dof_names[static_cast<std::size_t>(dof)],
                                               reference.name, what));
   return -1;

@@ -208,13 +208,23 @@ struct ContactDescription {
   double sliding_error = 1e-3;          // of the gap, by sliding along turned faces, beyond which a run warns [m]
 };
 
-// Base acceleration in one direction, piecewise linear between samples; the first sample is at t = 0.
+// A wave that reaches supports one after the other.
+struct WaveDescription {
+  Location at;
+  Vector3 direction = Vector3::UnitX();  // in which it runs, unit vector
+  double velocity = 0;                   // apparent, along `direction` [m/s]
+};
+
+// Acceleration in one direction, piecewise linear between samples: of the base, or of some supports relative to the base.
 struct MotionDescription {
   Location at;
   std::string source;                 // file it was read from
   double dt = 0;                      // [s]
   std::vector<double> acceleration;   // [m/s2], already scaled
   Vector3 direction = Vector3::UnitX();
+  double delay = 0;                   // of the first sample [s]
+  std::vector<Reference> supports;    // "structure.node"; none: the base, or, with a wave, all supports
+  std::optional<WaveDescription> wave;
 };
 
 struct GravityDescription {

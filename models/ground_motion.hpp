@@ -1,4 +1,5 @@
-// Base acceleration in one direction, piecewise linear between equally spaced samples, zero after the last.
+// Acceleration of the base, or of some supports, in one direction: piecewise linear between equally spaced samples, zero before
+// the first and after the last.
 #pragma once
 
 #include <string>
@@ -11,14 +12,19 @@ namespace nsframe {
 struct GroundMotion {
   std::string source;
   Vector3 direction = Vector3::UnitX();
-  double dt = 0;                         // [s]; the first sample is at t = 0
+  double dt = 0;                         // [s]
   std::vector<double> acceleration;      // [m/s2]
   std::vector<double> velocity;          // its exact integral at the samples [m/s], from prepare()
 
-  void prepare();                                   // fills `velocity`
-  double duration() const;                          // [s]
+  double start = 0;                      // of the first sample [s]
+  bool of_supports = false;              // relative to the base; else of the base
+  std::vector<double> displacement;      // the exact integral of the velocity [m], from prepare()
+
+  void prepare();                                   // fills `velocity` and `displacement`
+  double duration() const;                          // to the last sample [s]
   double acceleration_at(double time) const;        // [m/s2]
   double velocity_at(double time) const;            // exact integral of the acceleration from 0 [m/s]
+  double displacement_at(double time) const;        // and of that [m]
 };
 
 }  // namespace nsframe

@@ -43,12 +43,21 @@ struct Structure {
   bool may_move_freely = false;
 };
 
+// What a unit displacement of moved supports does in the pseudo-static shape s that they give the structures (theory.md, 370).
+struct SupportEffect {
+  VectorX displacement;               // s, full DOFs [m/m, rad/m]; empty: the motion is one of the whole base
+  VectorX force;                      // of linear elements there, free DOFs [N/m]; zero where all are linear
+  VectorX gap;                        // of the contact pairs [m/m]
+  VectorX damping;                    // of dashpots, free DOFs [N s/m]
+  bool moves_gaps() const { return gap.size() > 0 && gap.cwiseAbs().maxCoeff() > 1e-12; }
+};
+
 struct Model {
   Nodes nodes;
   DofMap dofs;
   std::vector<Structure> structures;
   std::vector<Slab> slabs;
-  std::vector<std::unique_ptr<const ElementGroup>> groups;
+  std::vector<std::shared_ptr<const ElementGroup>> groups;  // of models made smaller: the same ones
   std::vector<int> history_begin;     // of each group in State::history, and its total size at the end
   SparseMatrix mass;                  // M, free DOFs [kg, kg m2]; diagonal unless constraints couple DOFs
   SparseMatrix viscous_damping;       // dashpots only [N s/m]
@@ -58,11 +67,15 @@ struct Model {
   bool gravity_statically_first = true;
   std::vector<GroundMotion> motions;
   std::vector<VectorX> motion_load;   // free DOFs, force of a unit acceleration: -T' M T iota [kg], one a motion
+  std::vector<VectorX> driven;        // free DOFs that a motion prescribes, 1 m of it [m/m]; one a motion, empty for the whole base
+  std::vector<SupportEffect> support_effects;  // one a motion, once the driven DOFs are taken out (src/assembly/moved_supports.hpp)
+  MatrixX support_mass, support_stiffness;     // s_j' M s_k [kg], and s_j' K s_k of linear elements [N/m]; empty without moved supports
   Contacts contacts;
   std::vector<StaticStage> stages;
   VectorX initial_displacement, initial_velocity;  // free DOFs
 
   int history_size() const { return history_begin.back(); }
+  bool moves_supports() const { return support_mass.size() > 0; }
   bool loaded() const;                // weights or loads on members act
   double total_mass() const;          // of all nodes along x [kg]
 };

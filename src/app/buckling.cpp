@@ -61,7 +61,7 @@ std::string structure_of(const Model& model, const VectorX& shape) {
 }  // namespace
 
 int buckling(const SceneArguments& arguments) {
-  const LoadedScene loaded = load(arguments);
+  const LoadedScene loaded = load_at_rest(arguments);
   Simulation simulation(loaded.model, loaded.scene.analysis);
   const Reference reference = reference_loads(loaded.model, loaded.scene.analysis, simulation);
   const std::vector<BucklingMode> modes = buckling_modes(simulation.system(), reference.state, reference.pattern, shown_modes, reference.member_loads);

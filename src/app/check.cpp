@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "app/commands.hpp"
 #include "models/build_elements.hpp"
@@ -18,11 +19,10 @@ std::string counted(std::size_t count, const char* what) {
 
 std::string counted(int count, const char* what) { return counted(static_cast<std::size_t>(count), what); }
 
-void print_structure(const LoadedScene& loaded, Simulation& simulation, std::size_t index) {
-  const Structure& structure = loaded.model.structures[index];
-  const StructureModes& modes = simulation.modes()[index];
+void print_structure(const Model& model, const StructureModes& modes, std::size_t index) {
+  const Structure& structure = model.structures[index];
   Vector3 mass = Vector3::Zero();
-  for (const int node : structure.nodes) mass += loaded.model.nodal_mass.segment<3>(6 * node);
+  for (const int node : structure.nodes) mass += model.nodal_mass.segment<3>(6 * node);
   fmt::print("structure '{}': {}, {}, mass {:.6g} kg\n", structure.name, counted(structure.nodes.size(), "node"),
              counted(structure.last_dof - structure.first_dof, "free DOF"), mass.maxCoeff());
   for (int i = 0; i < std::min(6, modes.modes.size()); ++i) {
@@ -54,7 +54,26 @@ void print_contacts(const Contacts& contacts) {
   }
 }
 
-void print_solution(const LoadedScene& loaded, Simulation& simulation) {
+void print_motion(const Model& model, std::size_t index) {
+  const GroundMotion& motion = model.motions[index];
+  double peak = 0;
+  for (const double value : motion.acceleration) peak = std::max(peak, std::abs(value));
+  fmt::print("motion '{}': {} samples, dt {:g} s, {:.3f} s, peak {:.4g} m/s2, direction ({:g}, {:g}, {:g})", motion.source,
+             motion.acceleration.size(), motion.dt, motion.duration() - motion.start, peak, motion.direction.x(), motion.direction.y(),
+             motion.direction.z());
+  if (motion.start > 0) fmt::print(", from {:.6g} s on", motion.start);
+  if (motion.of_supports) {
+    std::set<int> nodes;
+    for (int i = 0; i < model.dofs.size(); ++i) {
+      if (model.driven[index][i] != 0) nodes.insert(model.dofs.free[static_cast<std::size_t>(i)].node);
+    }
+    fmt::print(", at {}:", counted(nodes.size(), "support"));
+    for (const int node : nodes) fmt::print(" {}", model.nodes.id[static_cast<std::size_t>(node)]);
+  }
+  fmt::print("\n");
+}
+
+void print_solution(const LoadedScene& loaded, Simulation& simulation, const std::vector<std::string>& own) {
   const AnalysisOptions& analysis = loaded.scene.analysis;
   for (const StaticStage& stage : simulation.stages()) {
     fmt::print("static stage '{}': by {}{}, {}, first {:g}, last {:g}\n", stage.name, stage.options.control,
@@ -62,7 +81,6 @@ void print_solution(const LoadedScene& loaded, Simulation& simulation) {
                stage.options.targets.front(), stage.options.targets.back());
   }
   if (!simulation.stages().empty() && !(simulation.duration() > 0)) return;
-  const std::vector<std::string> own = simulation.scheme().describe();
   const std::string name = simulation.scheme().name();
   if (!own.empty() && name != "moreau-jean") {
     fmt::print("scheme {}: {} {:g} ms, {} steps to {:g} s\n", name, name == "exact" ? "results every" : "dt =", 1e3 * analysis.dt,
@@ -86,7 +104,8 @@ void print_solution(const LoadedScene& loaded, Simulation& simulation) {
 
 int check(const SceneArguments& arguments) {
   const LoadedScene loaded = load(arguments);
-  Simulation simulation(loaded.model, loaded.scene.analysis);
+  ReducedSimulation reduced(loaded.model, loaded.scene.analysis);
+  Simulation& simulation = reduced.simulation();
   const Model& model = loaded.model;
   fmt::print("{}\n", loaded.scene.title.empty() ? arguments.scene.string() : loaded.scene.title);
   std::map<std::string, int> kinds;
@@ -99,23 +118,17 @@ int check(const SceneArguments& arguments) {
   }
   const std::size_t fibers = static_cast<std::size_t>(simulation.system().assembler.fibers());
   fmt::print("{}, {}, {}{}\n", counted(model.nodes.size(), "node"), counted(elements, "element"),
-             counted(model.dofs.size(), "free DOF"), fibers > 0 ? ", " + counted(fibers, "fiber") : "");
+             counted(reduced.held().dofs.size(), "free DOF"), fibers > 0 ? ", " + counted(fibers, "fiber") : "");
   for (const auto& [kind, count] : kinds) fmt::print("  {:<24} {}\n", kind, count);
   print_sections(loaded.scene.model);
-  for (std::size_t i = 0; i < model.structures.size(); ++i) print_structure(loaded, simulation, i);
+  for (std::size_t i = 0; i < model.structures.size(); ++i) print_structure(reduced.held(), simulation.modes()[i], i);
   print_contacts(model.contacts);
-  for (const GroundMotion& motion : model.motions) {
-    double peak = 0;
-    for (const double value : motion.acceleration) peak = std::max(peak, std::abs(value));
-    fmt::print("motion '{}': {} samples, dt {:g} s, {:.3f} s, peak {:.4g} m/s2, direction ({:g}, {:g}, {:g})\n", motion.source,
-               motion.acceleration.size(), motion.dt, motion.duration(), peak, motion.direction.x(), motion.direction.y(),
-               motion.direction.z());
-  }
+  for (std::size_t i = 0; i < model.motions.size(); ++i) print_motion(model, i);
   if (const auto& calibration = loaded.scene.tables.calibration) {
     fmt::print("calibration: {}, {} measured (nsframe calibrate)\n", counted(calibration->parameters.size(), "parameter"),
                calibration->targets.size() == 1 ? "1 frequency" : fmt::format("{} frequencies", calibration->targets.size()));
   }
-  print_solution(loaded, simulation);
+  print_solution(loaded, simulation, reduced.describe());
   return done;
 }
 

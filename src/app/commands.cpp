@@ -54,6 +54,12 @@ LoadedScene load(const SceneArguments& arguments) {
   return loaded;
 }
 
+LoadedScene load_at_rest(const SceneArguments& arguments) {
+  LoadedScene loaded = load(arguments);
+  loaded.model = held_supports(std::move(loaded.model));
+  return loaded;
+}
+
 std::filesystem::path output_folder(const SceneArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
   const std::filesystem::path file = std::filesystem::absolute(arguments.scene);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "integrators/simulation.hpp"
+#include "integrators/reduced_simulation.hpp"
 #include "scene/scene.hpp"
 
 namespace nsframe::app {
@@ -39,6 +39,8 @@ struct LoadedScene {
   Model model;
 };
 LoadedScene load(const SceneArguments& arguments);
+// The same with supports held that a motion moves relative to the base: for what happens at rest.
+LoadedScene load_at_rest(const SceneArguments& arguments);
 
 // Where results go without -o: results/<folder of scene.toml, or name of the file>.
 std::filesystem::path output_folder(const SceneArguments& arguments);

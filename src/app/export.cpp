@@ -75,7 +75,7 @@ std::string contact_table(const Contacts& contacts) {
 }  // namespace
 
 int export_matrices(const SceneArguments& arguments) {
-  const LoadedScene loaded = load(arguments);
+  const LoadedScene loaded = load_at_rest(arguments);
   Simulation simulation(loaded.model, loaded.scene.analysis);
   const System& system = simulation.system();
   const std::filesystem::path folder = output_folder(arguments);

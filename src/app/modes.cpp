@@ -69,7 +69,7 @@ std::vector<VectorX> shapes_of(const Model& model, const std::vector<StructureMo
 }  // namespace
 
 int modes(const SceneArguments& arguments) {
-  const LoadedScene loaded = load(arguments);
+  const LoadedScene loaded = load_at_rest(arguments);
   Simulation simulation(loaded.model, loaded.scene.analysis);
   if (arguments.json) {
     print_json(loaded.model, simulation.modes());

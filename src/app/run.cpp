@@ -93,7 +93,8 @@ int run(const SceneArguments& arguments) {
   const std::string complete = write_scene(loaded.scene, folder);
   Checkpoint checkpoint;
   if (arguments.resume) checkpoint = checkpoint_to_resume(folder, complete);
-  Simulation simulation(loaded.model, loaded.scene.analysis);
+  ReducedSimulation reduced(loaded.model, loaded.scene.analysis);
+  Simulation& simulation = reduced.simulation();
   if (arguments.resume) check_duration(checkpoint.snapshot, simulation.duration());
   const double setup = timer.seconds();
   make_folder(folder);
@@ -127,7 +128,7 @@ int run(const SceneArguments& arguments) {
     if (wants_frames) stage_observers.push_back(&stage_frames);
 #endif
   }
-  Summary summary = simulation.run(observers, control, stage_observers);
+  Summary summary = reduced.run(observers, control, stage_observers);
   if (!has_history(summary)) history.close();
   summary.title = loaded.scene.title;
   summary.timing.setup = setup;

@@ -38,7 +38,7 @@ std::vector<int> nodes_to_compare(const LoadedScene& loaded) {
 }
 
 Run run_once(const LoadedScene& loaded, const AnalysisOptions& options, double interval) {
-  Simulation simulation(loaded.model, options);
+  ReducedSimulation simulation(loaded.model, options);
   HistoryRecorder recorder(nodes_to_compare(loaded), interval, options.dt);
   Run run;
   run.summary = simulation.run({&recorder});

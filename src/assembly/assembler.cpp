@@ -187,9 +187,11 @@ void Assembler::set_load_factor(double factor, VectorX& history) const {
 void Assembler::internal_force(const VectorX& displacement, const VectorX& committed, VectorX& trial, VectorX& force,
                                bool with_tangent) {
   linear_operator_.multiply(displacement, force);
+  if (support_force_.size() > 0) force += support_force_;
   if (nonlinear_.empty()) return;
   tangent_is_current_ = with_tangent;
   full_displacement_.noalias() = model_.dofs.transformation * displacement;
+  if (support_displacement_.size() > 0) full_displacement_ += support_displacement_;
   const int count = static_cast<int>(nonlinear_.size());
   parallel_for(count, count < parallel_elements ? 1 : threads_, [&](int i) {
     const auto at = static_cast<std::size_t>(i);
@@ -224,7 +226,7 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
 
 RateEnergy Assembler::rate_force(const VectorX& committed, VectorX& trial, const StepSpan& step, VectorX& force) {
   rate_values_.assign(static_cast<std::size_t>(tangent_.nonZeros()), 0.0);
-  full_force_.setZero(model_.dofs.full);
+  full_rate_force_.setZero(model_.dofs.full);
   RateEnergy sum;
   Vector12 at_nodes;
   Matrix12 tangent;
@@ -235,10 +237,10 @@ RateEnergy Assembler::rate_force(const VectorX& committed, VectorX& trial, const
                                                          trial.data() + placed.history_begin, step, at_nodes, tangent);
     sum.dissipated += energy.dissipated;
     sum.stored += energy.stored;
-    add_to_nodes(*placed.group, placed.element, at_nodes, full_force_);
+    add_to_nodes(*placed.group, placed.element, at_nodes, full_rate_force_);
     scatter(placed, tangent, rate_values_.data());
   }
-  force.noalias() = model_.dofs.transformation_transposed * full_force_;
+  force.noalias() = model_.dofs.transformation_transposed * full_rate_force_;
   return sum;
 }
 

@@ -40,6 +40,14 @@ class Assembler {
   // for tangent() where it is wanted: it costs about as much as the force.
   void internal_force(const VectorX& displacement, const VectorX& committed_history, VectorX& trial_history,
                       VectorX& force, bool with_tangent = true);
+  // What moved supports add to every internal_force() from now on: displacements of nodes, for the elements that are evaluated, full
+  // DOFs, and the force of the others [N, N m], free DOFs. Empty: nothing.
+  void move_supports(const VectorX& displacement, const VectorX& force) {
+    support_displacement_ = displacement;
+    support_force_ = force;
+  }
+  // Forces at nodes of the elements that the last internal_force() evaluated, full DOFs [N, N m].
+  const VectorX& evaluated_force() const { return full_force_; }
   // The part of P(q) that linear elements carry.
   void linear_force(const VectorX& displacement, VectorX& force) const { linear_operator_.multiply(displacement, force); }
   // dP/dq at the last internal_force() with tangent; same pattern always.
@@ -91,7 +99,8 @@ class Assembler {
   std::vector<Vector12> forces_;
   std::vector<std::exception_ptr> failures_;
   std::vector<Matrix12, Eigen::aligned_allocator<Matrix12>> tangents_;
-  VectorX full_displacement_, full_force_;
+  VectorX full_displacement_, full_force_, full_rate_force_;
+  VectorX support_displacement_, support_force_;
 };
 
 }  // namespace nsframe

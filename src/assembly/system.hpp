@@ -36,6 +36,16 @@ class System {
   const SparseMatrix& mass() const { return model.mass; }
   bool linear() const { return assembler.linear(); }
 
+  // Gaps and their rates, with what moved supports add to them [m], [m/s].
+  void gaps(const VectorX& displacement, double time, VectorX& gap) const;
+  void gap_rates(const VectorX& velocity, double time, VectorX& rate) const;
+  // Sets the supports where they are at `time`, for the internal forces to come.
+  void place_supports(double time);
+  // What the elements do to moved supports along each motion, s_k' P [N], at the displacement of the last internal_force().
+  VectorX support_forces(const VectorX& displacement, double time) const;
+  // 1/2 (v + sum s_k d_k')' M (v + sum s_k d_k') less 1/2 v' M v [J].
+  double support_kinetic_energy(const VectorX& velocity, double time) const;
+
   // Integral of the loads over [start, end], exact for the piecewise linear ground motion [N s].
   void load_impulse(double start, double end, VectorX& impulse) const;
 };

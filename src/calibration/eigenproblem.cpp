@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "assembly/moved_supports.hpp"
 #include "assembly/stability.hpp"
 #include "base/errors.hpp"
 #include "integrators/initial_state.hpp"
@@ -20,7 +21,7 @@ SparseMatrix symmetric_part(const SparseMatrix& matrix) { return 0.5 * (matrix +
 RestingModel resting_model(const ModelDescription& description) {
   Diagnostics diagnostics;
   RestingModel out;
-  out.model = build_model(description, diagnostics);
+  out.model = held_supports(build_model(description, diagnostics));
   diagnostics.throw_if_any();
   System system(out.model, 1);
   State state = virgin_state(system);

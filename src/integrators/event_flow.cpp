@@ -74,11 +74,11 @@ void EventFlow::find_load(const System& system, double time, double length, Vect
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const GroundMotion& motion = motions[i];
     // the samples around the middle of the piece: its ends may round to either side of a sample
-    const double middle = time + 0.5 * length, at = middle / motion.dt;
-    if (motion.acceleration.size() < 2 || middle < 0 || middle > motion.duration()) continue;
+    const double middle = time + 0.5 * length, at = (middle - motion.start) / motion.dt;
+    if (motion.acceleration.size() < 2 || middle < motion.start || middle > motion.duration()) continue;
     const std::size_t k = std::min(static_cast<std::size_t>(at), motion.acceleration.size() - 2);
     const double slope = (motion.acceleration[k + 1] - motion.acceleration[k]) / motion.dt;
-    f0 += (motion.acceleration[k] + slope * (time - static_cast<double>(k) * motion.dt)) * modes_.motion_load[i];
+    f0 += (motion.acceleration[k] + slope * (time - motion.start - static_cast<double>(k) * motion.dt)) * modes_.motion_load[i];
     f1 += slope * modes_.motion_load[i];
   }
   if (force_.value.size() > 0) {
@@ -98,8 +98,8 @@ std::vector<double> EventFlow::cuts(const System& system, double time, double h)
   for (const GroundMotion& motion : system.model.motions) {
     if (motion.acceleration.empty()) continue;
     const double close = 1e-9 * std::min(motion.dt, h);
-    for (double k = std::max(0.0, std::ceil((time + close) / motion.dt)); k < static_cast<double>(motion.acceleration.size()); ++k) {
-      const double at = k * motion.dt - time;
+    for (double k = std::max(0.0, std::ceil((time + close - motion.start) / motion.dt)); k < static_cast<double>(motion.acceleration.size()); ++k) {
+      const double at = motion.start + k * motion.dt - time;
       if (at >= h - close) break;
       if (at > close) cuts.push_back(at);
     }

@@ -12,6 +12,7 @@ class Exact : public Scheme {
   // Throws InputError for nonlinear elements, and as exact_modes() does.
   Exact(const AnalysisOptions& options, const System& system);
   std::string name() const override { return "exact"; }
+  bool condenses_massless() const override { return true; }
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, w}; }
   ModeResponse complex_mode(int mode) const override {

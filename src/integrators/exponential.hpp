@@ -16,6 +16,7 @@ class Exponential : public Scheme {
   // dashpots at DOFs without mass.
   Exponential(const AnalysisOptions& options, const System& system);
   std::string name() const override { return "exponential"; }
+  bool condenses_massless() const override { return true; }
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, w}; }
   ModeResponse complex_mode(int mode) const override {

@@ -41,9 +41,10 @@ void MoreauJean::find_active_pairs(const System& system, const State& committed,
   active_.clear();
   result.least_gap = std::numeric_limits<double>::infinity();
   if (contacts.size() == 0) return;
-  gap_.noalias() = contacts.jacobian * committed.displacement;
-  gap_ += contacts.initial_gap;
-  rate_.noalias() = contacts.jacobian * committed.velocity;
+  system.gaps(committed.displacement, committed.time, gap_);
+  system.gap_rates(committed.velocity, committed.time, rate_);
+  support_rate_.resize(0);
+  if (system.model.moves_supports()) system.gap_rates(VectorX::Zero(committed.velocity.size()), committed.time + h, support_rate_);
   result.least_gap = gap_.minCoeff();
   const double closed = options_.projection ? closed_gap : 0;  // a projected gap is 0 but for rounding
   for (int i = 0; i < contacts.size(); ++i) {
@@ -67,6 +68,7 @@ void MoreauJean::evaluate(System& system, const State& committed, State& trial, 
   const double theta = options_.theta;
   mid_velocity_ = (1 - theta) * committed.velocity + theta * trial.velocity;
   trial.displacement = committed.displacement + h * mid_velocity_;
+  system.place_supports(committed.time + h);
   system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force, with_tangent);
   momentum_change_.noalias() = system.mass() * (trial.velocity - committed.velocity);
   free_residual_ = momentum_change_ + h * ((1 - theta) * committed.internal_force + theta * trial.internal_force) - load_;
@@ -95,6 +97,7 @@ void MoreauJean::solve_contact(const System& system, State& trial, StepResult& r
   for (Eigen::Index b = 0; b < count; ++b) {
     const int pair = active_[static_cast<std::size_t>(b)];
     problem.rhs[b] = contacts.jacobian.row(pair).dot(trial.velocity);
+    if (support_rate_.size() > 0) problem.rhs[b] += support_rate_[pair];
     problem.delassus.col(b) = matrix_.rates_by(contacts, pair)(active_);
   }
   problem.rhs -= target_rates(system, problem.delassus);
@@ -260,7 +263,8 @@ void MoreauJean::step(System& system, const State& committed, State& trial, doub
 void MoreauJean::project(System& system, const State& committed, State& trial, double h, StepResult& result) {
   const Contacts& contacts = system.contacts();
   if (contacts.size() == 0) return;
-  const VectorX gap = contacts.jacobian * trial.displacement + contacts.initial_gap;
+  VectorX gap;
+  system.gaps(trial.displacement, committed.time + h, gap);
   std::vector<ProjectedPair> pairs;
   std::size_t next = 0;  // of active_, which rises
   for (int i = 0; i < contacts.size(); ++i) {
@@ -299,9 +303,12 @@ void MoreauJean::report(const System& system, const State& committed, State& tri
     const double p = impulse_[static_cast<Eigen::Index>(k)];
     if (p <= 0) continue;
     const int pair = active_[k];
-    const double before = rate_[pair], after = contacts.jacobian.row(pair).dot(trial.velocity);
+    const double own_after = contacts.jacobian.row(pair).dot(trial.velocity);
+    const double before = rate_[pair], after = own_after + (support_rate_.size() > 0 ? support_rate_[pair] : 0);
+    const double own_before = support_rate_.size() > 0 ? contacts.jacobian.row(pair).dot(committed.velocity) : before;
     result.contact -= 0.5 * p * (before + after);
-    result.numerical -= p * (after - before);
+    result.input -= 0.5 * p * (before - own_before + after - own_after);  // work of the pair on moved supports
+    result.numerical -= p * (own_after - own_before);
     trial.impulse[pair] = p;
     result.impacts.push_back({trial.time, pair, -before, p, before, after});
   }

@@ -59,6 +59,7 @@ class MoreauJean : public Scheme {
   double least_scale_;                // force that counts as zero [N]
   std::vector<int> active_;
   VectorX gap_, rate_;                // at the start of the step
+  VectorX support_rate_;              // of the gaps, by moved supports at the end of the step; empty where none do
   VectorX impulse_;                   // of the active pairs
   VectorX friction_impulse_;          // two an active pair, along its tangents; empty without friction
   MatrixX delassus_;                  // of the last contact problem; rows of tangents included where there is friction

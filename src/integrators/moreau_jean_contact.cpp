@@ -83,7 +83,7 @@ void MoreauJean::report_simultaneous(const System& system, const State& committe
     const int pair = active_[static_cast<std::size_t>(a)];
     impulse[rows * a] = impulse_[a];
     before[rows * a] = rate_[pair];
-    after[rows * a] = contacts.jacobian.row(pair).dot(trial.velocity);
+    after[rows * a] = contacts.jacobian.row(pair).dot(trial.velocity) + (support_rate_.size() > 0 ? support_rate_[pair] : 0);
     if (rows == 1 || contacts.friction[pair] == 0 || impulse_[a] <= 0) continue;
     Slip slip{pair};
     Vector2 path;

@@ -60,6 +60,9 @@ class Scheme {
 
   virtual long factorizations() const = 0;
 
+  // Whether DOFs without mass are condensed by the scheme itself.
+  virtual bool condenses_massless() const { return false; }
+
   // The highest circular frequency at which a struck point rings by itself, where the scheme steps through that [rad/s]; else 0.
   virtual double struck_frequency() const { return 0; }
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <map>
 
@@ -50,6 +51,39 @@ void check_contact_laws(const AnalysisOptions& options, const Contacts& contacts
   diagnostics.throw_if_any();
 }
 
+// Part of the largest damping coefficient, per unit of motion, that is more than rounding where all supports move together.
+constexpr double strained_dashpot = 1e-9;
+
+// Supports that move relative to the base, where a scheme cannot take what they do.
+void check_moved_supports(const AnalysisOptions& options, const System& system) {
+  const Model& model = system.model;
+  if (!model.moves_supports()) return;
+  Diagnostics diagnostics;
+  const auto refuse = [&](const std::string& why) {
+    diagnostics.error(options.scheme_at, fmt::format("moved supports: {}", why));
+  };
+  const bool gaps = std::any_of(model.support_effects.begin(), model.support_effects.end(), [](const SupportEffect& e) { return e.moves_gaps(); });
+  double dashpot = 0;
+  for (const SupportEffect& effect : model.support_effects) {
+    if (effect.damping.size() > 0) dashpot = std::max(dashpot, effect.damping.cwiseAbs().maxCoeff());
+  }
+  double largest = 0;
+  for (int j = 0; j < model.viscous_damping.outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator entry(model.viscous_damping, j); entry; ++entry) largest = std::max(largest, std::abs(entry.value()));
+  }
+  if (dashpot > strained_dashpot * largest) refuse("they strain dashpots, whose energy is not found then; use damping of structures instead");
+  if (system.assembler.rate_dependent()) refuse("laws of the rate of strain do not go beside them; use damping of structures instead");
+  if (model.contacts.frictional()) refuse("pairs with friction slide where supports move, which is not found; use pairs without friction");
+  if (options.scheme != "moreau-jean") {
+    const std::string other = fmt::format("scheme '{}' takes them in linear scenes alone, and {{}}; use scheme = \"moreau-jean\"", options.scheme);
+    if (!system.linear()) refuse(fmt::format(fmt::runtime(other), "elements here are nonlinear"));
+    if (gaps) refuse(fmt::format(fmt::runtime(other), "they open and close contact pairs here"));
+  } else if (gaps) {
+    if (const std::string force = force_law_of(model.contacts); !force.empty()) refuse("they open and close contact pairs here, and " + force + "; use Newton's law of impact");
+  }
+  diagnostics.throw_if_any();
+}
+
 }  // namespace
 
 std::vector<std::string> scheme_names() {
@@ -64,6 +98,7 @@ std::unique_ptr<Scheme> make_scheme(const AnalysisOptions& options, const System
     throw InputError(fmt::format("error: scheme '{}' is not known{}", options.scheme, did_you_mean(options.scheme, scheme_names())));
   }
   check_contact_laws(options, system.contacts());
+  check_moved_supports(options, system);
   return found->second(options, system);
 }
 

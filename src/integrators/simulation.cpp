@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "assembly/stability.hpp"
 #include "base/errors.hpp"
@@ -17,6 +18,34 @@
 namespace nsframe {
 
 namespace {
+
+// Shows observers of static stages the states of the larger model.
+class ExpandedStages : public StageObserver {
+ public:
+  ExpandedStages(const LargerModel& larger, const std::vector<StageObserver*>& observers) : larger_(larger), observers_(observers) {}
+
+  void start(const Model&, const StaticStage& stage, const State& state) override {
+    const State expanded = expand(state);
+    for (StageObserver* observer : observers_) observer->start(*larger_.model, stage, expanded);
+  }
+  void point(const StagePoint& point, const State& state) override {
+    const State expanded = expand(state);
+    for (StageObserver* observer : observers_) observer->point(point, expanded);
+  }
+  void finish(const StageResult& result) override {
+    for (StageObserver* observer : observers_) observer->finish(result);
+  }
+
+ private:
+  State expand(const State& state) const {
+    State expanded = state;
+    larger_.reduction.expand(state, larger_.model->motions, expanded);
+    return expanded;
+  }
+
+  const LargerModel& larger_;
+  const std::vector<StageObserver*>& observers_;
+};
 
 void check_options(const AnalysisOptions& options) {
   Diagnostics diagnostics;
@@ -33,12 +62,21 @@ void check_options(const AnalysisOptions& options) {
   diagnostics.throw_if_any();
 }
 
+void check_supports_rest(const Model& model) {
+  for (std::size_t k = 0; k < model.driven.size(); ++k) {
+    if (model.driven[k].size() == 0) continue;
+    throw InputError(fmt::format("error: motion '{}' moves supports, which a Simulation takes only once they are taken out of the model: "
+                                 "use ReducedSimulation", model.motions[k].source));
+  }
+}
+
 }  // namespace
 
 Simulation::Simulation(const Model& model, const AnalysisOptions& options, int modes)
     : model_(model), options_(options), system_(model, options.threads) {
   const Timer timer;
   check_options(options);
+  check_supports_rest(model);
   state_ = virgin_state(system_);
   Diagnostics diagnostics;
   check_stability(model, system_.assembler.tangent(), diagnostics);
@@ -168,10 +206,13 @@ Summary Simulation::outline() const {
 }
 
 Summary Simulation::run(const std::vector<Observer*>& observers, const RunControl& control,
-                        const std::vector<StageObserver*>& stage_observers) {
+                        const std::vector<StageObserver*>& stage_observers, const LargerModel* larger) {
   Summary summary = outline();
   const Timer stage_clock;
-  const bool arrived = run_stages(stages_.size(), {options_.algorithm, stage_observers, control.stop_requested}, summary.stages);
+  std::optional<ExpandedStages> expanded;
+  std::vector<StageObserver*> watching = stage_observers;
+  if (larger && !stage_observers.empty()) watching = {&expanded.emplace(*larger, stage_observers)};
+  const bool arrived = run_stages(stages_.size(), {options_.algorithm, watching, control.stop_requested}, summary.stages);
   summary.softened_members = system_.assembler.softened_members(state_.history);
   if (!arrived || (!stages_.empty() && !(duration() > 0))) {
     summary.completed = arrived;
@@ -190,7 +231,7 @@ Summary Simulation::run(const std::vector<Observer*>& observers, const RunContro
     state_.damping_stiffness = Eigen::Map<const VectorX>(K.valuePtr(), K.nonZeros());
   }
   if (!(duration() > 0)) throw InputError("error: analysis.duration is missing, and there is no motion to take it from");
-  TimeHistoryResult result = run_time_history(system_, *scheme_, options_, duration(), state_, observers, control);
+  TimeHistoryResult result = run_time_history(system_, *scheme_, options_, duration(), state_, observers, control, larger);
   summary.steps = result.steps;
   summary.end_time = state_.time;
   summary.softened_members = system_.assembler.softened_members(state_.history);

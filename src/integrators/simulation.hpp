@@ -15,9 +15,10 @@ class Simulation {
 
   // Runs the time history with the options' duration (or that of the longest motion), from the initial state.
   // Or from a snapshot, when `control` has one; the summary is that of the whole time history. The static stages come
-  // first, also then: they are found again. Without duration and motion they are all.
+  // first, also then: they are found again. Without duration and motion they are all. Observers see the states of `larger`, if it is
+  // given, in place of those of the model here.
   Summary run(const std::vector<Observer*>& observers, const RunControl& control = {},
-              const std::vector<StageObserver*>& stage_observers = {});
+              const std::vector<StageObserver*>& stage_observers = {}, const LargerModel* larger = nullptr);
 
   System& system() { return system_; }
   const std::vector<StructureModes>& modes() const { return modes_; }

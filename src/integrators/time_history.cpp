@@ -65,19 +65,21 @@ std::vector<double> fingerprint(const Model& model) {
 class TimeHistory {
  public:
   TimeHistory(System& system, Scheme& scheme, const AnalysisOptions& options, const std::vector<Observer*>& observers,
-              const RunControl& control)
-      : system_(system), scheme_(scheme), options_(options), observers_(observers), control_(control) {}
+              const RunControl& control, const LargerModel* larger)
+      : system_(system), scheme_(scheme), options_(options), observers_(observers), control_(control), shown_(system.model, larger) {}
 
   TimeHistoryResult run(double duration, State& committed);
 
  private:
   void begin(State& committed, double duration);
   // One step of the user's dt; false when it could not be made to converge.
-  bool step(int number, const State& committed, State& trial);
+  bool step(int number, State& committed, State& trial);
   // Advances `committed` by h into `trial`, in halves where Newton fails.
   void advance(const State& committed, State& trial, double h, int halvings);
   // Notes steps in which the first algorithm failed.
   void record_ladder(const State& committed);
+  // Energies are those of the motion relative to the base: what moved supports add to strain energy and input.
+  void add_support_work(double start, double end, const State& trial, StepResult& step);
   void add(const StepResult& step, double time);
   void watch_energy(const State& state);
   bool stop_now();
@@ -88,8 +90,12 @@ class TimeHistory {
   void observe(const Call& call) {
     if (observers_.empty()) return;
     const Timer timer;
-    for (Observer* observer : observers_) call(*observer);
+    call();
     result_.observer_seconds += timer.seconds();
+  }
+  template <class Call>
+  void each_observer(const Call& call) {
+    for (Observer* observer : observers_) call(*observer);
   }
 
   System& system_;
@@ -97,11 +103,14 @@ class TimeHistory {
   const AnalysisOptions& options_;
   const std::vector<Observer*>& observers_;
   const RunControl& control_;
+  ShownStates shown_;
   TimeHistoryResult result_;
   StepReport report_;
   StepResult step_;
   std::vector<Impact> step_impacts_;
   VectorX momentum_;
+  VectorX support_force_;      // of moved supports along each motion, at the end of the last step [N]
+  double support_kinetic_ = 0;  // what they add to the kinetic energy [J]
   double start_ = 0;           // of the time history [s]
   Timer clock_;
   double last_save_ = 0;       // on the clock [s]
@@ -112,6 +121,7 @@ void TimeHistory::advance(const State& committed, State& trial, double h, int ha
   try {
     scheme_.step(system_, committed, trial, h, step_);
     record_ladder(committed);
+    if (system_.model.moves_supports()) add_support_work(committed.time, committed.time + h, trial, step_);
     add(step_, committed.time);
   } catch (const ConvergenceError&) {
     record_ladder(committed);
@@ -129,6 +139,19 @@ void TimeHistory::record_ladder(const State& committed) {
   if (step_.attempts.empty() || step_.attempts.front().converged) return;
   ++result_.laddered_steps;
   if (result_.ladder.size() < most_ladder_records) result_.ladder.push_back({"", result_.steps + 1, committed.time, step_.attempts});
+}
+
+void TimeHistory::add_support_work(double start, double end, const State& trial, StepResult& step) {
+  const VectorX force = system_.support_forces(trial.displacement, end);
+  const auto& motions = system_.model.motions;
+  for (std::size_t k = 0; k < motions.size(); ++k) {
+    if (system_.model.support_effects[k].displacement.size() == 0) continue;
+    const auto at = static_cast<Eigen::Index>(k);
+    const double work = 0.5 * (motions[k].displacement_at(end) - motions[k].displacement_at(start)) * (support_force_[at] + force[at]);
+    step.strain += work;
+    step.input += work;
+  }
+  support_force_ = force;
 }
 
 void TimeHistory::add(const StepResult& step, double time) {
@@ -172,6 +195,12 @@ void TimeHistory::watch_energy(const State& state) {
   double& largest = result_.largest_energy;
   momentum_.noalias() = system_.mass() * state.velocity;
   energy.kinetic = 0.5 * state.velocity.dot(momentum_);
+  if (system_.model.moves_supports()) {
+    const double carried = system_.support_kinetic_energy(state.velocity, state.time);
+    energy.kinetic += carried;
+    energy.input += carried - support_kinetic_;
+    support_kinetic_ = carried;
+  }
   largest = std::max({largest, energy.kinetic, std::abs(energy.strain), std::abs(energy.input), energy.initial});
   if (largest > 0) {
     result_.worst_balance_error = std::max(result_.worst_balance_error, std::abs(energy.balance_error()) / largest);
@@ -185,16 +214,31 @@ void TimeHistory::begin(State& committed, double duration) {
   if (control_.resume) {
     check_duration(*control_.resume, duration);
     restore(committed);
-    observe([&](Observer& observer) { observer.resume(system_.model, committed, *control_.resume); });
+    observe([&] {
+      shown_.begin(committed, [&](const Model& model, const State& state) {
+        each_observer([&](Observer& observer) { observer.resume(model, state, *control_.resume); });
+      });
+    });
     return;
   }
   start_ = committed.time;
+  if (system_.model.moves_supports()) {
+    State trial = committed;
+    system_.place_supports(committed.time);
+    system_.assembler.start_step(committed.history, trial.history);
+    system_.assembler.internal_force(committed.displacement, committed.history, trial.history, trial.internal_force);
+    support_force_ = system_.support_forces(committed.displacement, committed.time);
+  }
   result_.energy.initial = 0.5 * committed.velocity.dot(system_.mass() * committed.velocity);
   watch_energy(committed);
-  observe([&](Observer& observer) { observer.start(system_.model, committed); });
+  observe([&] {
+    shown_.begin(committed, [&](const Model& model, const State& state) {
+      each_observer([&](Observer& observer) { observer.start(model, state); });
+    });
+  });
 }
 
-bool TimeHistory::step(int number, const State& committed, State& trial) {
+bool TimeHistory::step(int number, State& committed, State& trial) {
   report_ = StepReport{};
   report_.step = number;
   step_impacts_.clear();
@@ -216,9 +260,13 @@ bool TimeHistory::step(int number, const State& committed, State& trial) {
     ++result_.quiet_samples;
   }
   result_.impacts.insert(result_.impacts.end(), step_impacts_.begin(), step_impacts_.end());
-  observe([&](Observer& observer) {
-    for (const Impact& impact : step_impacts_) observer.impact(impact);
-    observer.step(committed, trial, report_, result_.energy);
+  observe([&] {
+    shown_.step(committed, trial, report_, [&](const State& before, const State& after, const StepReport& report) {
+      each_observer([&](Observer& observer) {
+        for (const Impact& impact : step_impacts_) observer.impact(impact);
+        observer.step(before, after, report, result_.energy);
+      });
+    });
   });
   return true;
 }
@@ -246,6 +294,7 @@ void TimeHistory::save(const State& committed) {
   for (const Slip& slip : result_.slips) {
     snapshot.put(fmt::format("time_history.slip.{}", slip.pair), std::vector<double>{slip.distance, slip.energy});
   }
+  if (system_.model.moves_supports()) snapshot.put("time_history.support_force", support_force_);
   nsframe::save("time_history.impacts", result_.impacts, snapshot);
   nsframe::save("time_history.ladder", result_.ladder, snapshot);
   control_.keep_snapshot(snapshot);
@@ -268,6 +317,11 @@ void TimeHistory::restore(State& committed) {
     const std::vector<double>& sums = snapshot.array(fmt::format("time_history.slip.{}", slip.pair));
     slip = {slip.pair, sums[0], sums[1]};
   }
+  if (system_.model.moves_supports()) {
+    support_force_.resize(static_cast<Eigen::Index>(system_.model.motions.size()));
+    snapshot.read("time_history.support_force", support_force_);
+    support_kinetic_ = system_.support_kinetic_energy(committed.velocity, committed.time);
+  }
   earlier_seconds_ = snapshot.number("time_history.wall_seconds");
   result_.impacts = restore_impacts("time_history.impacts", snapshot);
   result_.ladder = restore_ladder("time_history.ladder", snapshot);
@@ -286,13 +340,14 @@ TimeHistoryResult TimeHistory::run(double duration, State& committed) {
   save(committed);
   for (const Impact& impact : scheme_.open_contacts(system_, committed)) {
     result_.impacts.push_back(impact);
-    observe([&](Observer& observer) { observer.impact(impact); });
+    observe([&] { each_observer([&](Observer& observer) { observer.impact(impact); }); });
   }
   if (system_.contacts().size() > 0) {
-    const VectorX gap = system_.contacts().jacobian * committed.displacement + system_.contacts().initial_gap;
+    VectorX gap;
+    system_.gaps(committed.displacement, committed.time, gap);
     result_.max_penetration = std::max(result_.max_penetration, -gap.minCoeff());
   }
-  observe([](Observer& observer) { observer.finish(); });
+  observe([&] { each_observer([](Observer& observer) { observer.finish(); }); });
   result_.step_seconds = earlier_seconds_ + clock_.seconds() - result_.observer_seconds;
   return std::move(result_);
 }
@@ -306,8 +361,9 @@ void check_duration(const Snapshot& snapshot, double duration) {
 }
 
 TimeHistoryResult run_time_history(System& system, Scheme& scheme, const AnalysisOptions& options, double duration,
-                                   State& state, const std::vector<Observer*>& observers, const RunControl& control) {
-  return TimeHistory(system, scheme, options, observers, control).run(duration, state);
+                                   State& state, const std::vector<Observer*>& observers, const RunControl& control,
+                                   const LargerModel* larger) {
+  return TimeHistory(system, scheme, options, observers, control, larger).run(duration, state);
 }
 
 }  // namespace nsframe

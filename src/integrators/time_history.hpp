@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "integrators/scheme.hpp"
+#include "integrators/shown_states.hpp"
 
 namespace nsframe {
 
@@ -49,9 +50,10 @@ void check_duration(const Snapshot& snapshot, double duration);
 
 // Steps of options.dt from state.time over `duration`; `state` ends at the last accepted step, also when a step
 // could not be made to converge: then `completed` is false and stop_reason says where. A run that goes on from a
-// snapshot ends at the same time as one from the start, with the same bits in results and observers.
+// snapshot ends at the same time as one from the start, with the same bits in results and observers. These see the states of
+// `larger`, if it is given, in place of those of the system's model.
 TimeHistoryResult run_time_history(System& system, Scheme& scheme, const AnalysisOptions& options, double duration,
                                    State& state, const std::vector<Observer*>& observers,
-                                   const RunControl& control = {});
+                                   const RunControl& control = {}, const LargerModel* larger = nullptr);
 
 }  // namespace nsframe

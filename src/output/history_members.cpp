@@ -81,6 +81,7 @@ struct SectionKind {
   std::vector<Member> members;
   std::vector<std::string> elements;  // of each section
   std::vector<double> positions;
+  bool with_shear = false;            // some section has laws of shear or torsion
 };
 
 class SectionPart : public HistoryPart {
@@ -88,7 +89,7 @@ class SectionPart : public HistoryPart {
   SectionPart(const Model& model, const State& state) {
     const VectorX displacement = model.dofs.expand(state.displacement);
     for (const auto& [name, members] : members_by_kind(model)) {
-      SectionKind kind{name, {}, {}, {}};
+      SectionKind kind{name, {}, {}, {}, false};
       for (const auto& member : members) {
         const auto sections = sections_of(model, member, state, displacement);
         if (sections.empty()) continue;
@@ -96,6 +97,7 @@ class SectionPart : public HistoryPart {
         for (const auto& section : sections) {
           kind.elements.push_back(model.groups[member.group]->id(member.element));
           kind.positions.push_back(section.position);
+          kind.with_shear = kind.with_shear || section.with_shear;
         }
       }
       if (!kind.members.empty()) kinds_.push_back(std::move(kind));
@@ -120,6 +122,12 @@ class SectionPart : public HistoryPart {
                          "along the element, 0 at its first node, 1 at its second");
       add_series(file, folder + "/deformation", {points, 3}, block, "1, 1/m, 1/m", {"e0", "kz", "ky"});
       add_series(file, folder + "/force", {points, 3}, block, "N, N m, N m", {"N", "MZ", "MY"});
+      if (kind.with_shear) {
+        add_series(file, folder + "/shear_deformation", {points, 3}, block, "1, 1, rad/m", {"gamma_y", "gamma_z", "twist"});
+        add_series(file, folder + "/shear_force", {points, 3}, block, "N, N, N m", {"VY", "VZ", "T"});
+        file.set_attribute(folder + "/shear_deformation", "description", "of the laws beside the fibers; 0 where a section is rigid in shear");
+        file.set_attribute(folder + "/shear_force", "description", "derivatives of MZ and MY along the element, and torsion");
+      }
       add_series(file, folder + "/peak_strain_ratio", {points}, block, "1");
       add_series(file, folder + "/yielded", {points}, block, "1");
       file.set_attribute(folder + "/peak_strain_ratio", "description",
@@ -135,12 +143,20 @@ class SectionPart : public HistoryPart {
     for (const auto& kind : kinds_) {
       double* deformation = (series++)->add_row();
       double* force = (series++)->add_row();
+      double* const shear = kind.with_shear ? (series++)->add_row() : nullptr;
+      double* const shear_force = kind.with_shear ? (series++)->add_row() : nullptr;
+      std::ptrdiff_t at = 0;
       double* strain_ratio = (series++)->add_row();
       double* yielded = (series++)->add_row();
       for (const auto& member : kind.members) {
         for (const auto& section : sections_of(model, member, sample.after, displacement)) {
           deformation = std::copy_n(section.deformation.data(), 3, deformation);
           force = std::copy_n(section.force.data(), 3, force);
+          if (kind.with_shear) {
+            std::copy_n(section.shear_deformation.data(), 3, shear + at);
+            std::copy_n(section.shear_force.data(), 3, shear_force + at);
+            at += 3;
+          }
           *strain_ratio++ = section.peak_strain_ratio;
           *yielded++ = section.yielded;
         }

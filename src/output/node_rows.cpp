@@ -55,13 +55,17 @@ std::vector<int> full_dofs(const std::vector<int>& nodes, const std::vector<int>
 
 Vector3 ground_velocity(const Model& model, double time) {
   Vector3 velocity = Vector3::Zero();
-  for (const auto& motion : model.motions) velocity += motion.velocity_at(time) * motion.direction;
+  for (const auto& motion : model.motions) {
+    if (!motion.of_supports) velocity += motion.velocity_at(time) * motion.direction;
+  }
   return velocity;
 }
 
 Vector3 ground_acceleration(const Model& model, double time) {
   Vector3 acceleration = Vector3::Zero();
-  for (const auto& motion : model.motions) acceleration += motion.acceleration_at(time) * motion.direction;
+  for (const auto& motion : model.motions) {
+    if (!motion.of_supports) acceleration += motion.acceleration_at(time) * motion.direction;
+  }
   return acceleration;
 }
 

@@ -342,7 +342,10 @@ std::string summary_json(const Summary& summary) {
        {{"elements_assembled_once", summary.savings.elements_assembled_once},
         {"quiet_fibers", summary.savings.quiet_fibers},
         {"guessed_steps", summary.savings.guessed_steps},
-        {"factorizations_avoided", summary.savings.factorizations_avoided}}},
+        {"factorizations_avoided", summary.savings.factorizations_avoided},
+        {"massless_dofs", summary.savings.massless_dofs},
+        {"condensed_dofs", summary.savings.condensed_dofs},
+        {"condensed_entries", summary.savings.condensed_entries}}},
       {"timing",
        {{"setup", summary.timing.setup}, {"step_loop", summary.timing.step_loop}, {"output", summary.timing.output}}},
       {"warnings", summary.warnings}};

@@ -256,6 +256,13 @@ void put_savings(Buffer& out, const Summary& summary) {
   if (summary.fibers > 0) fmt::format_to(std::back_inserter(out), ", {:.0f} % of the fibers in quiet sections", 100 * s.quiet_fibers);
   if (s.guessed_steps > 0) fmt::format_to(std::back_inserter(out), ", {} steps solved by their first guess", s.guessed_steps);
   line(out, ", {} factorizations avoided", s.factorizations_avoided);
+  if (s.condensed_dofs > 0) {
+    line(out, "  condensed: {} of {} DOFs, which have no mass: factors and stiffness keep {:.0f} % of their entries", s.condensed_dofs, summary.dofs,
+         100 * s.condensed_entries);
+  } else if (s.massless_dofs > 0) {
+    line(out, "  kept: {} DOFs without mass, {}", s.massless_dofs,
+         summary.stages.empty() ? "since factors and stiffness would have more entries without them" : "since static stages may load them");
+  }
 }
 
 void put_solution(Buffer& out, const Summary& summary) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "output/summary.hpp"
 
@@ -118,7 +119,9 @@ double kept_between_samples(double f, double dt) {
 }
 
 void of_coarse_motions(const Model& model, const Summary& summary, Sentences& out) {
+  std::set<std::string> said;  // of records that move supports one after the other, once
   for (const GroundMotion& motion : model.motions) {
+    if (!said.insert(motion.source).second && motion.of_supports) continue;
     if (summary.scheme == "moreau-jean" && summary.dt > motion.dt * (1 + 1e-9)) {
       out.push_back(fmt::format("dt = {:g} ms steps over samples of the ground motion, which are {:g} ms apart", 1e3 * summary.dt,
                                 1e3 * motion.dt));

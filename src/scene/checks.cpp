@@ -181,6 +181,9 @@ void check(TableReader& table, const ContactTable& contact) {
 
 void check(TableReader& table, const MotionTable& motion) {
   if (motion.pga && motion.factor) table.error("factor", "a motion has either pga or factor");
+  if (motion.quantity == MotionQuantity::acceleration) return;
+  if (motion.pga) table.error("pga", "displacements have no pga; scale them by factor");
+  if (motion.unit) table.error("unit", "units of displacements are in factor, e.g. factor = \"1 cm\"");
 }
 
 void check(TableReader& table, const FloorSpectraOptions& spectra) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "motion/record.hpp"
+#include "motion/spline.hpp"
 #include "scene/describe_stage.hpp"
 
 namespace nsframe {
@@ -14,7 +15,9 @@ namespace {
 std::optional<Record> read(const MotionTable& motion, const std::filesystem::path& directory, Diagnostics& diagnostics) {
   if (motion.file.name.empty()) return std::nullopt;  // reported by the reader
   try {
-    return read_record(directory / motion.file.name, {motion.dt, motion.unit, motion.channel, motion.format ? motion.format->name : ""});
+    ReadOptions options{motion.dt, motion.unit, motion.channel, motion.format ? motion.format->name : ""};
+    if (motion.quantity == MotionQuantity::displacement) options.unit = AccelerationUnit::metres;  // the numbers as they are
+    return read_record(directory / motion.file.name, options);
   } catch (const RecordError& fault) {
     diagnostics.error(fault.at.line > 0 ? fault.at : motion.file.at, fault.text);
   } catch (const IoError&) {
@@ -38,8 +41,18 @@ std::optional<MotionDescription> describe(const MotionTable& motion, const std::
     }
     factor = *motion.pga / peak;
   }
-  MotionDescription out{motion.at, motion.file.name, record->dt, record->acceleration, motion.direction.vector};
+  MotionDescription out{motion.at, motion.file.name, record->dt, record->acceleration, motion.direction.vector, motion.delay, motion.supports, {}};
   for (double& a : out.acceleration) a *= factor;
+  if (motion.wave) out.wave = WaveDescription{motion.wave->at, motion.wave->direction.vector, motion.wave->velocity};
+  if (motion.quantity == MotionQuantity::displacement) {
+    double peak = 0;
+    for (const double u : out.acceleration) peak = std::max(peak, std::abs(u));
+    if (std::abs(out.acceleration.front()) > 1e-6 * peak) {
+      diagnostics.error(motion.file.at, "displacements of record '" + motion.file.name + "' must begin at zero");
+      return std::nullopt;
+    }
+    out.acceleration = spline_accelerations(out.acceleration, out.dt);
+  }
   return out;
 }
 

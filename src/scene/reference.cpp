@@ -88,6 +88,7 @@ constexpr std::string_view title_of(const InitialDisplacement*) { return "an ini
 constexpr std::string_view title_of(const InitialVelocity*) { return "an initial velocity"; }
 constexpr std::string_view title_of(const StageLoadTable*) { return "a load"; }
 constexpr std::string_view title_of(const ControlDofTable*) { return "a control DOF"; }
+constexpr std::string_view title_of(const WaveTable*) { return "a wave"; }
 constexpr std::string_view title_of(const DampingTable*) { return "damping"; }
 constexpr std::string_view title_of(const FrameColumns*) { return "columns"; }
 constexpr std::string_view title_of(const FrameBeams*) { return "beams"; }

@@ -63,6 +63,12 @@ void visit(Archive& ar, GravityTable& g) {
 }
 
 template <class Archive>
+void visit(Archive& ar, WaveTable& w) {
+  ar(Field{"direction", "in which it runs"}, w.direction);
+  ar(required("velocity", "apparent, along its direction", dimension::velocity, range::positive), w.velocity);
+}
+
+template <class Archive>
 void visit(Archive& ar, MotionTable& m) {
   ar(required("file",
               "record: PEER AT2, COSMOS, CSMIP V2, ESM, K-NET, or text and CSV with one column or two (time, acceleration); relative to the scene"),
@@ -80,14 +86,27 @@ void visit(Archive& ar, MotionTable& m) {
            .default_text = "the only one"},
      m.channel);
   ar(Field{.key = "format", .text = "`at2`, `k-net`, `esm`, `cosmos`, `csmip` or `text`", .default_text = "found from the file"}, m.format);
+  ar(Field{"quantity",
+           "of the numbers in the file: `acceleration`, or `displacement`, from zero and from rest, through whose values a cubic spline goes"},
+     m.quantity);
   ar(Field{.key = "pga",
            .text = "peak to scale the record to",
            .dimension = dimension::acceleration,
            .range = range::positive,
            .default_text = "as recorded"},
      m.pga);
-  ar(Field{.key = "factor", .text = "in place of `pga`: times this", .default_text = "1"}, m.factor);
-  ar(Field{"direction", "of the base acceleration"}, m.direction);
+  ar(Field{.key = "factor",
+           .text = "in place of `pga`: times this; of displacements a length, e.g. \"1 cm\"",
+           .dimension = m.dimension(),
+           .default_text = "1"},
+     m.factor);
+  ar(Field{"direction", "of the motion"}, m.direction);
+  ar(Field{"delay", "of the whole record", dimension::time, range::non_negative}, m.delay);
+  ar(Field{.key = "supports",
+           .text = "`structure.node` of the supports that move so relative to the base, in place of the whole base",
+           .default_text = "the base; with a wave, all supports"},
+     m.supports);
+  ar(Field{"wave", "supports move one after the other, as a wave reaches them; the first one after `delay`"}, m.wave);
 }
 
 template <class Archive>

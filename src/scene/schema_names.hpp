@@ -55,6 +55,9 @@ constexpr auto names_of(AccelerationUnit) {
                                      {"in/s2", AccelerationUnit::inches},
                                      {"ft/s2", AccelerationUnit::feet}}};
 }
+constexpr auto names_of(MotionQuantity) {
+  return Names<MotionQuantity, 2>{{{"acceleration", MotionQuantity::acceleration}, {"displacement", MotionQuantity::displacement}}};
+}
 constexpr auto names_of(ArcKind) {
   return Names<ArcKind, 2>{{{"spherical", ArcKind::spherical}, {"cylindrical", ArcKind::cylindrical}}};
 }

@@ -299,6 +299,14 @@ struct StageTable {
   }
 };
 
+struct WaveTable {
+  Location at;
+  Direction direction;
+  double velocity = 0;  // [m/s]
+};
+
+enum class MotionQuantity { acceleration, displacement };
+
 struct MotionTable {
   Location at;
   Reference file;
@@ -306,9 +314,16 @@ struct MotionTable {
   std::optional<AccelerationUnit> unit;  // of the numbers in the file
   std::optional<int> channel;            // from 1, of a file with several
   std::optional<Reference> format;       // found from the file when not given
+  MotionQuantity quantity = MotionQuantity::acceleration;  // of the file's numbers
   std::optional<double> pga;       // [m/s2]
   std::optional<double> factor;
   Direction direction;
+  double delay = 0;                // [s]
+  std::vector<Reference> supports;
+  std::optional<WaveTable> wave;
+
+  // Of `factor`.
+  Dimension dimension() const { return quantity == MotionQuantity::displacement ? dimension::length : dimension::none; }
 };
 
 }  // namespace nsframe

@@ -111,6 +111,25 @@ TEST_CASE("a completed run resumed to a longer duration gives the files of a lon
   }
 }
 
+TEST_CASE("a run with condensed DOFs and moved supports goes on bit by bit, and its files have every DOF") {
+  for (const Case& c : {Case{"two_story_elastic", "3.5 s"}, Case{"wave_passage", "3 s"}}) {
+    CAPTURE(c.name);
+    const Words stepped{"--set", "analysis.scheme=moreau-jean"};
+    const auto with = [&](Words words) {
+      words.insert(words.end(), stepped.begin(), stepped.end());
+      return words;
+    };
+    const TemporaryFolder whole, parts;
+    REQUIRE(run(whole, c.name, duration(c.duration, stepped)) == 0);
+    const auto summary = summary_without_timing(whole / "run");
+    CHECK(summary["savings"]["condensed_dofs"] > 0);
+    CHECK(summary["dofs"] > summary["savings"]["condensed_dofs"]);
+    CHECK(run(parts, c.name, duration("1.2345 s", stepped)) == 0);
+    CHECK(run(parts, c.name, duration(c.duration, with({"--resume"}))) == 0);
+    check_same_results(whole, parts);
+  }
+}
+
 TEST_CASE("--resume refuses what it cannot go on from, and leaves the results as they are") {
   const TemporaryFolder folder;
   const std::string name = "two_story_elastic";

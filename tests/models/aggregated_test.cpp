@@ -112,3 +112,27 @@ TEST_CASE("laws of shear and torsion that are missing or have no stiffness are e
   d.structures[0].elements[0].kind = ElementKind::displacement_beam;
   CHECK(error_of(d).find("section 's' deforms in shear") != std::string::npos);
 }
+
+TEST_CASE("sections tell the shear forces, torsion and strains of the laws beside their fibers") {
+  const Model model = build(aggregated_column(ElementKind::force_beam, true));
+  System system(model, 1);
+  State state = virgin_state(system);
+  solve_static(system, tip_load(model, (Vector6() << 900, 400, 0, 0, 0, 30).finished()), StaticOptions{}, state);
+  const std::vector<SectionResult> sections = model.groups[0]->sections(0, model.dofs.expand(state.displacement), state.history.data());
+  REQUIRE(sections.size() > 2);
+  const Vector3 slope = (sections.back().force - sections.front().force) / 2.5;
+  for (const SectionResult& section : sections) {
+    REQUIRE(section.with_shear);
+    CHECK(section.shear_force.head<2>().norm() == doctest::Approx(std::hypot(900, 400)).epsilon(1e-9));
+    CHECK(section.shear_force[0] == doctest::Approx(slope[1]).epsilon(1e-9));
+    CHECK(section.shear_force[1] == doctest::Approx(slope[2]).epsilon(1e-9));
+    CHECK(std::abs(section.shear_force[2]) == doctest::Approx(30).epsilon(1e-9));
+    CHECK(section.shear_deformation[0] == doctest::Approx(section.shear_force[0] / 5e6).epsilon(1e-9));
+    CHECK(section.shear_deformation[1] == doctest::Approx(section.shear_force[1] / 2e6).epsilon(1e-9));
+    CHECK(section.shear_deformation[2] == doctest::Approx(section.shear_force[2] / 6566).epsilon(1e-9));
+  }
+  const Model torsion = build(aggregated_column(ElementKind::displacement_beam, false));
+  System other(torsion, 1);
+  const State rest = virgin_state(other);
+  for (const SectionResult& section : torsion.groups[0]->sections(0, VectorX::Zero(12), rest.history.data())) CHECK_FALSE(section.with_shear);
+}

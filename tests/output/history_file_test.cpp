@@ -17,6 +17,8 @@
 #include "output/member_forces.hpp"
 #include "tests/output/sample_pair.hpp"
 #include "tests/support/hdf5_reader.hpp"
+#include "tests/support/recorder.hpp"
+#include "tests/support/small_models.hpp"
 
 using namespace nsframe;
 using namespace nsframe::test;
@@ -162,6 +164,52 @@ TEST_CASE("element forces are in local axes and sections carry N, MZ, MY") {
   CHECK(first[1] == doctest::Approx(-stored[5]));
   CHECK(first[2] == doctest::Approx(-stored[4]));
   CHECK(file.texts("/sections/elastic_beam/element")[10] == ids[5]);
+}
+
+TEST_CASE("sections with laws of shear and torsion have their strains and forces too, others have not") {
+  ModelDescription d = column();
+  d.materials = {{"steel", {}, Elastic{210e9}}, {"y", {}, Elastic{5e6}}, {"z", {}, Elastic{2e6}}, {"twist", {}, Elastic{6566}}};
+  FiberSectionDescription section;
+  for (const double y : {-0.05, 0.05}) {
+    for (const double z : {-0.04, 0.04}) section.fibers.push_back({y, z, 5e-4, {"steel", {}}});
+  }
+  section.torsion = Reference{"twist", {}};
+  section.shear_y = Reference{"y", {}};
+  section.shear_z = Reference{"z", {}};
+  d.sections[0].kind = section;
+  d.structures[0].elements[0].kind = ElementKind::force_beam;
+  d.structures[0].masses = {mass("2", 1000, Vector3(0, 0, 50))};
+  for (const auto& [dof, rate] : {std::pair{0, 0.3}, {1, 0.2}, {5, 0.5}}) d.structures[0].initial_velocities.push_back({{"2", {}}, dof, rate});
+  const Model model = build(d);
+  AnalysisOptions options;
+  options.scheme = "moreau-jean";
+  options.dt = 1e-3;
+  options.duration = 5e-3;
+  const TemporaryFolder folder;
+  HistoryFile history(folder / "results.h5", keeping({"sections"}), "");
+  Recorder recorder;
+  REQUIRE(Simulation(model, options).run({&history, &recorder}).completed);
+  const Hdf5Reader file(folder / "results.h5");
+  const auto strains = file.numbers("/sections/force_beam/shear_deformation"), forces = file.numbers("/sections/force_beam/shear_force");
+  const State& last = recorder.states.back();
+  const std::vector<SectionResult> sections = model.groups[0]->sections(0, model.dofs.expand(last.displacement), last.history.data());
+  const auto points = static_cast<hsize_t>(sections.size());
+  REQUIRE(file.shape("/sections/force_beam/shear_force") == std::vector<hsize_t>{6, points, 3});
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t at = 3 * (5 * sections.size() + i) + k;
+      const double law = k == 0 ? 5e6 : k == 1 ? 2e6 : 6566;
+      CHECK(std::abs(forces[at]) > 1);
+      CHECK(forces[at] == sections[i].shear_force[static_cast<Eigen::Index>(k)]);
+      CHECK(strains[at] == doctest::Approx(forces[at] / law).epsilon(1e-9));
+    }
+  }
+  d.sections[0].kind = elastic_section("c", {210e9, 81e9, 3e-3, 1e-5, 4e-6, 8e-8}).kind;
+  d.structures[0].elements[0].kind = ElementKind::elastic_beam;
+  const Model plain = build(d);
+  HistoryFile other(folder / "plain.h5", keeping({"sections"}), "");
+  REQUIRE(Simulation(plain, options).run({&other}).completed);
+  CHECK_FALSE(Hdf5Reader(folder / "plain.h5").has("/sections/elastic_beam/shear_force"));
 }
 
 TEST_CASE("without histories the file has impacts, poundings, the energy at the end and the scene") {

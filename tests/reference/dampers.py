@@ -45,6 +45,8 @@ for name, law, parameters in [
     ("power", "Viscous", (3e3, 0.4)),
     ("maxwell", "ViscousDamper", (60e3, 3e3, 1.0)),
     ("maxwell_power", "ViscousDamper", (60e3, 3e3, 0.4)),
+    ("maxwell_gap", "ViscousDamper", (60e3, 3e3, 1.0, 0.004)),
+    ("maxwell_power_gap", "ViscousDamper", (60e3, 3e3, 0.4, 0.004)),
 ]:
     with open(os.path.join(HERE, f"damper_{name}.csv"), "w") as file:
         file.write(f"# {law} {', '.join('%g' % p for p in parameters)}: time [s], displacement [m], force of the damper [N]\n")

@@ -1,6 +1,10 @@
 // Records of all formats as motions of a scene: values, and faults at the motion or in the record's line.
 #include <doctest/doctest.h>
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "scene_text.hpp"
 
 using namespace nsframe;
@@ -47,4 +51,41 @@ TEST_CASE("faults of a record are reported at its line, what the scene says wron
         "s.toml:4:8: error: format 'esn' is not known; did you mean 'esm'?");
   CHECK(test::error(motion("/nowhere/x.at2")) == "s.toml:4:8: error: cannot open the record '/nowhere/x.at2'");
   CHECK(test::error(motion(samples + "el_centro.csv", "unit = \"m/s\"\n")).find("unit") != std::string::npos);
+}
+
+TEST_CASE("a motion may move supports, as a wave that reaches them, later, and be given as displacements") {
+  const std::string record = samples + "el_centro.csv";
+  const Scene wave = test::scene(motion(record, "supports = [\"s.1\"]\nwave = { direction = \"y\", velocity = \"250 m/s\" }\ndelay = \"50 ms\"\n"));
+  const MotionDescription& m = wave.model.motions.at(0);
+  REQUIRE(m.wave);
+  CHECK(m.wave->velocity == 250);
+  CHECK(m.wave->direction == Vector3::UnitY());
+  CHECK(m.delay == 0.05);
+  REQUIRE(m.supports.size() == 1);
+  CHECK(m.supports[0].name == "s.1");
+
+  // a cubic spline through displacements: their exact double integral is given back at every sample, and rest at both ends
+  const test::TemporaryFolder folder;
+  std::string text;
+  const auto u = [](int i) { return i <= 80 ? std::pow(std::sin(pi * i / 80), 2) + 0.25 * (1 - std::cos(pi * i / 80)) : 0.5; };
+  for (int i = 0; i <= 100; ++i) text += fmt::format("{:.15g}\n", u(i));
+  folder.write("u.txt", text);
+  const Scene moved = test::scene(motion((folder / "u.txt").string(), "dt = \"10 ms\"\nquantity = \"displacement\"\nfactor = \"2 cm\"\n"));
+  GroundMotion spline;
+  spline.dt = moved.model.motions.at(0).dt;
+  spline.acceleration = moved.model.motions.at(0).acceleration;
+  spline.prepare();
+  REQUIRE(spline.displacement.size() == 101);
+  for (int i = 0; i <= 100; ++i) CHECK(spline.displacement[static_cast<std::size_t>(i)] == doctest::Approx(0.02 * u(i)).epsilon(1e-11));
+  CHECK(std::abs(spline.velocity.back()) < 1e-12);
+  CHECK(spline.velocity[30] == doctest::Approx(0.02 / 0.8 * (pi * std::sin(2 * pi * 30 / 80) + 0.25 * pi * std::sin(pi * 30 / 80))).epsilon(1e-5));
+
+  CHECK(test::error(motion((folder / "u.txt").string(), "dt = \"10 ms\"\nquantity = \"displacement\"\npga = \"1 m/s2\"\n")) ==
+        "s.toml:7:7: error: displacements have no pga; scale them by factor");
+  CHECK(test::error(motion((folder / "u.txt").string(), "dt = \"10 ms\"\nquantity = \"displacement\"\nunit = \"g\"\n")) ==
+        "s.toml:7:8: error: units of displacements are in factor, e.g. factor = \"1 cm\"");
+  folder.write("v.txt", "1\n2\n1\n0\n0\n");
+  CHECK(test::error(motion((folder / "v.txt").string(), "dt = \"10 ms\"\nquantity = \"displacement\"\nfactor = \"1 cm\"\n")).find("must begin at zero") !=
+        std::string::npos);
+  CHECK(test::error(motion(record, "wave = { direction = \"y\", velocity = \"-250 m/s\" }\n")).find("velocity") != std::string::npos);
 }
