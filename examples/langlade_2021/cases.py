@@ -7,7 +7,7 @@ PAPER_SCHEME = {"analysis.scheme": "moreau-jean", "analysis.theta": 1, "analysis
 HALF_SCHEME = {"analysis.scheme": "moreau-jean", "analysis.theta": 0.5, "analysis.gamma": 0.5, "analysis.dt": 1e-3}
 FINE_SCHEME = dict(PAPER_SCHEME, **{"analysis.dt": 1e-4})
 EXACT_SCHEME = {"analysis.scheme": "exact", "analysis.dt": 1e-3}
-YIELDING_SCHEME = {"analysis.scheme": "exponential", "analysis.accuracy": 1e-3, "analysis.dt": 1e-3}
+YIELDING_SCHEME = {"analysis.scheme": "exponential", "analysis.accuracy": 1e-4, "analysis.dt": 1e-3}
 SCHEMES = {"paper": PAPER_SCHEME, "converged": EXACT_SCHEME}
 
 # The unnamed records of the paper, and what stands for them here. `shipped`: the file is part of nsframe.
