@@ -79,6 +79,10 @@ std::vector<MovedSupports> find_moved_supports(const std::vector<MotionDescripti
   return moved;
 }
 
+bool Model::drives_dofs() const {
+  return std::any_of(driven.begin(), driven.end(), [](const VectorX& unit) { return unit.size() > 0; });
+}
+
 bool prescribed(const Model& model, int full_dof) {
   for (const VectorX& unit : model.driven) {
     for (SparseRows::InnerIterator entry(model.dofs.transformation, full_dof); unit.size() > 0 && entry; ++entry) {

@@ -26,23 +26,23 @@ double GroundMotion::acceleration_at(double time) const {
   return acceleration[i] + (at - static_cast<double>(i)) * (acceleration[next] - acceleration[i]);
 }
 
+GroundMotion::Piece GroundMotion::piece_at(double time) const {
+  const double at = (time - start) / dt;
+  const std::size_t i = std::min(static_cast<std::size_t>(at), acceleration.size() - 2);
+  return {i, (at - static_cast<double>(i)) * dt, (acceleration[i + 1] - acceleration[i]) / dt};
+}
+
 double GroundMotion::velocity_at(double time) const {
   if (acceleration.empty() || time <= start) return 0;
   if (time >= duration()) return velocity.back();
-  const double at = (time - start) / dt;
-  const std::size_t i = std::min(static_cast<std::size_t>(at), acceleration.size() - 2);
-  const double s = (at - static_cast<double>(i)) * dt;
-  const double slope = (acceleration[i + 1] - acceleration[i]) / dt;
+  const auto [i, s, slope] = piece_at(time);
   return velocity[i] + s * (acceleration[i] + 0.5 * s * slope);
 }
 
 double GroundMotion::displacement_at(double time) const {
   if (acceleration.empty() || time <= start) return 0;
   if (time >= duration()) return displacement.back() + (time - duration()) * velocity.back();
-  const double at = (time - start) / dt;
-  const std::size_t i = std::min(static_cast<std::size_t>(at), acceleration.size() - 2);
-  const double s = (at - static_cast<double>(i)) * dt;
-  const double slope = (acceleration[i + 1] - acceleration[i]) / dt;
+  const auto [i, s, slope] = piece_at(time);
   return displacement[i] + s * (velocity[i] + s * (0.5 * acceleration[i] + s * slope / 6));
 }
 

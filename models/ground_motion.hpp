@@ -25,6 +25,12 @@ struct GroundMotion {
   double acceleration_at(double time) const;        // [m/s2]
   double velocity_at(double time) const;            // exact integral of the acceleration from 0 [m/s]
   double displacement_at(double time) const;        // and of that [m]
+  // The sample before `time`, the time since [s] and the slope [m/s3]; of motions that have begun and not ended.
+  struct Piece {
+    std::size_t sample;
+    double since, slope;
+  };
+  Piece piece_at(double time) const;
 };
 
 }  // namespace nsframe

@@ -75,7 +75,8 @@ struct Model {
   VectorX initial_displacement, initial_velocity;  // free DOFs
 
   int history_size() const { return history_begin.back(); }
-  bool moves_supports() const { return support_mass.size() > 0; }
+  bool drives_dofs() const;           // a motion prescribes free DOFs: `driven`
+  bool moves_supports() const { return support_mass.size() > 0; }  // which have been taken out
   bool loaded() const;                // weights or loads on members act
   double total_mass() const;          // of all nodes along x [kg]
 };

@@ -28,20 +28,11 @@ Reduction Reduction::then(const Reduction& inner) const {
 Model reduced_model(const Model& model, const Reduction& reduction, const std::vector<VectorX>& linear_force) {
   const SparseRows& A = reduction.map;
   const SparseRows At = A.transpose();
-  Model out;
-  out.nodes = model.nodes;
-  out.slabs = model.slabs;
-  out.groups = model.groups;
-  out.history_begin = model.history_begin;
-  out.nodal_mass = model.nodal_mass;
-  out.gravity_statically_first = model.gravity_statically_first;
-  out.motions = model.motions;
-
-  out.dofs.full = model.dofs.full;
+  Model out = model;
+  out.dofs.free.clear();
   for (const int i : reduction.kept) out.dofs.free.push_back(model.dofs.free[static_cast<std::size_t>(i)]);
   out.dofs.transformation = model.dofs.transformation * A;
   out.dofs.transformation_transposed = out.dofs.transformation.transpose();
-  out.structures = model.structures;
   int next = 0;
   const auto count = static_cast<int>(reduction.kept.size());
   for (Structure& structure : out.structures) {
@@ -55,10 +46,8 @@ Model reduced_model(const Model& model, const Reduction& reduction, const std::v
   out.viscous_damping = SparseMatrix(At * SparseRows(SparseRows(model.viscous_damping) * A));
   for (std::size_t k = 0; k < 3; ++k) out.inertia[k] = At * model.inertia[k];
   out.gravity_load = At * model.gravity_load;
-  out.contacts = model.contacts;
   out.contacts.jacobian = model.contacts.jacobian * A;
   if (out.contacts.tangents.rows() > 0) out.contacts.tangents = model.contacts.tangents * A;
-  out.stages = model.stages;
   for (StaticStage& stage : out.stages) {
     if (stage.pattern.size() > 0) stage.pattern = At * stage.pattern;
     if (stage.control_row.size() > 0) stage.control_row = At * stage.control_row;
@@ -66,6 +55,8 @@ Model reduced_model(const Model& model, const Reduction& reduction, const std::v
   out.initial_displacement = model.initial_displacement(reduction.kept);
   out.initial_velocity = model.initial_velocity(reduction.kept);
 
+  out.motion_load.clear();
+  out.support_effects.clear();
   for (std::size_t k = 0; k < model.motions.size(); ++k) {
     SupportEffect effect;
     if (k < model.support_effects.size() && model.support_effects[k].displacement.size() > 0) {  // of DOFs taken out before
@@ -83,8 +74,6 @@ Model reduced_model(const Model& model, const Reduction& reduction, const std::v
     out.support_effects.push_back(std::move(effect));
   }
   out.driven.assign(model.driven.size(), VectorX());
-  out.support_mass = model.support_mass;
-  out.support_stiffness = model.support_stiffness;
   if (linear_force.empty()) return out;
   const auto moved = static_cast<Eigen::Index>(model.motions.size());
   out.support_mass = out.support_stiffness = MatrixX::Zero(moved, moved);

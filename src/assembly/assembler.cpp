@@ -184,6 +184,20 @@ void Assembler::set_load_factor(double factor, VectorX& history) const {
   }
 }
 
+VectorX Assembler::member_loads(const VectorX& displacement, const VectorX& history) {
+  constexpr double change = 1e-4;
+  const double part = load_factor(history);
+  VectorX trial = history, more, less;
+  set_load_factor(part + change, trial);
+  if (trial == history) return VectorX::Zero(displacement.size());
+  for (const double side : {1.0, -1.0}) {
+    start_step(history, trial);
+    set_load_factor(part + side * change, trial);
+    internal_force(displacement, history, trial, side > 0 ? more : less, false);
+  }
+  return (less - more) / (2 * change);
+}
+
 void Assembler::internal_force(const VectorX& displacement, const VectorX& committed, VectorX& trial, VectorX& force,
                                bool with_tangent) {
   linear_operator_.multiply(displacement, force);

@@ -35,6 +35,8 @@ class Assembler {
   // The part of the loads on members that is in the history of nonlinear ones (0 in a virgin history), and its change.
   double load_factor(const VectorX& history) const;
   void set_load_factor(double factor, VectorX& history) const;
+  // What a unit of that part gives to the nodes in a state [N, N m], by differences; zero without loads on nonlinear members.
+  VectorX member_loads(const VectorX& displacement, const VectorX& history);
 
   // P(q) [N, N m], less the loads on nonlinear members, at `displacement`; writes the trial history, and keeps the tangent
   // for tangent() where it is wanted: it costs about as much as the force.

@@ -1,7 +1,5 @@
 #include "assembly/moved_supports.hpp"
 
-#include <algorithm>
-
 #include "assembly/assembler.hpp"
 #include "base/decompositions.hpp"
 #include "base/errors.hpp"
@@ -56,7 +54,7 @@ Model without_moved_supports(const Model& model, Reduction& reduction) {
 }
 
 Model held_supports(Model model) {
-  if (std::all_of(model.driven.begin(), model.driven.end(), [](const VectorX& unit) { return unit.size() == 0; })) return model;
+  if (!model.drives_dofs()) return model;
   Reduction reduction;
   return without_moved_supports(model, reduction);
 }

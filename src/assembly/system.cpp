@@ -27,16 +27,10 @@ System::System(const Model& the_model, int threads)
     : model(the_model), assembler(the_model, threads), static_load(VectorX::Zero(the_model.dofs.size())) {
   damping.viscous = model.viscous_damping;
   for (const BlockRange& block : assembler.blocks()) damping.modal.emplace_back(block.size(), 0);
-  const VectorX virgin = assembler.virgin_history();
-  VectorX loaded = virgin;
-  assembler.set_load_factor(1, loaded);
-  if (loaded == virgin) return;
-  VectorX trial = virgin, with = static_load, without = static_load;
-  assembler.internal_force(static_load, virgin, trial, without, false);
-  trial = loaded;
-  assembler.internal_force(static_load, loaded, trial, with, false);
-  member_load = (with - without).norm();
+  member_load = assembler.member_loads(static_load, assembler.virgin_history()).norm();
 }
+
+double System::negligible_force() const { return negligible_acceleration * mass().diagonal().norm() + member_load; }
 
 void System::gaps(const VectorX& displacement, double time, VectorX& gap) const {
   gap.noalias() = contacts().jacobian * displacement;

@@ -21,6 +21,9 @@ struct Damping {
   void add_force(const std::vector<BlockRange>& blocks, double factor, const VectorX& velocity, VectorX& force) const;
 };
 
+// Accelerations below this count as zero when residuals are judged [m/s2].
+inline constexpr double negligible_acceleration = 1e-3;
+
 class System {
  public:
   System(const Model& model, int threads);
@@ -35,6 +38,7 @@ class System {
   const Contacts& contacts() const { return model.contacts; }
   const SparseMatrix& mass() const { return model.mass; }
   bool linear() const { return assembler.linear(); }
+  double negligible_force() const;  // what residuals are measured by at least [N]
 
   // Gaps and their rates, with what moved supports add to them [m], [m/s].
   void gaps(const VectorX& displacement, double time, VectorX& gap) const;

@@ -79,24 +79,11 @@ void require_stability(const SparseMatrix& K, bool symmetric) {
   if (!stable) throw ConvergenceError("the structure is not stable under the constant loads: there is no load factor to add");
 }
 
-// Of the loads on members: minus the change of the internal force by their part.
-VectorX member_pattern(System& system, const State& state) {
-  constexpr double change = 1e-4;
-  const double part = system.assembler.load_factor(state.history);
-  VectorX history = state.history, more, less;
-  for (const double side : {1.0, -1.0}) {
-    system.assembler.start_step(state.history, history);
-    system.assembler.set_load_factor(part + side * change, history);
-    system.assembler.internal_force(state.displacement, state.history, history, side > 0 ? more : less);
-  }
-  return (less - more) / (2 * change);
-}
-
 }  // namespace
 
 std::vector<BucklingMode> buckling_modes(System& system, const State& state, const VectorX& at_nodes, int count, double member_loads) {
   VectorX pattern = at_nodes;
-  if (member_loads != 0) pattern += member_loads * member_pattern(system, state);
+  if (member_loads != 0) pattern += member_loads * system.assembler.member_loads(state.displacement, state.history);
   VectorX history = state.history, force, loading = state.displacement, response;
   SparseMatrix K;
   Eigen::SparseLU<SparseMatrix> factor;

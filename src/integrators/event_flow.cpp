@@ -74,10 +74,9 @@ void EventFlow::find_load(const System& system, double time, double length, Vect
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const GroundMotion& motion = motions[i];
     // the samples around the middle of the piece: its ends may round to either side of a sample
-    const double middle = time + 0.5 * length, at = (middle - motion.start) / motion.dt;
+    const double middle = time + 0.5 * length;
     if (motion.acceleration.size() < 2 || middle < motion.start || middle > motion.duration()) continue;
-    const std::size_t k = std::min(static_cast<std::size_t>(at), motion.acceleration.size() - 2);
-    const double slope = (motion.acceleration[k + 1] - motion.acceleration[k]) / motion.dt;
+    const auto [k, since, slope] = motion.piece_at(middle);
     f0 += (motion.acceleration[k] + slope * (time - motion.start - static_cast<double>(k) * motion.dt)) * modes_.motion_load[i];
     f1 += slope * modes_.motion_load[i];
   }

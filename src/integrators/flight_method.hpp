@@ -111,8 +111,6 @@ std::unique_ptr<FlightMethod> make_alpha_os(const AnalysisOptions& options, cons
 // DOFs without mass: they have no velocity of their own, and get the mean one of the step.
 std::vector<Eigen::Index> massless_dofs(const System& system);
 
-// What residuals are measured by at least: accelerations below this count as zero [m/s2].
-inline constexpr double negligible_acceleration = 1e-3;
 // By the solution algorithms; throws ConvergenceError when none converges. Counts iterations.
 void solve_flight(Ladder& ladder, NonlinearStep& problem, const AnalysisOptions& options, const System& system, double time,
                   StepResult& result);

@@ -63,7 +63,7 @@ class GeneralizedAlpha::Step : public FlightProblem {
 GeneralizedAlpha::GeneralizedAlpha(const AnalysisOptions& options, const System& system, const GeneralizedAlphaParameters& parameters,
                                    std::string name)
     : p_(parameters), own_{IterationMatrix(system), system.initial_stiffness}, massless_(massless_dofs(system)), options_(options),
-      name_(std::move(name)), ladder_(options.algorithm), least_scale_(negligible_acceleration * system.mass().diagonal().norm() + system.member_load) {}
+      name_(std::move(name)), ladder_(options.algorithm), least_scale_(system.negligible_force()) {}
 
 std::string GeneralizedAlpha::describe() const {
   return fmt::format("generalized-alpha between impacts (alpha_m = {:.4g}, alpha_f = {:.4g}, beta = {:.4g}, gamma = {:.4g}): of second order, waves "

@@ -15,8 +15,6 @@ namespace {
 
 // Residual reduction of one iteration above which the tangent is factored anew.
 constexpr double slow_reduction = 0.005;
-// Accelerations below this count as zero when the residual is judged [m/s2].
-constexpr double least_acceleration = 1e-3;
 
 // Newton's law can ask a body between two pairs with different e to leave both.
 std::string hint_of_restitution(const Contacts& contacts) {
@@ -27,7 +25,7 @@ std::string hint_of_restitution(const Contacts& contacts) {
 }  // namespace
 
 MoreauJean::MoreauJean(const AnalysisOptions& options, const System& system)
-    : options_(options), matrix_(system), ladder_(options.algorithm), forces_(system), least_scale_(least_acceleration * system.mass().diagonal().norm() + system.member_load),
+    : options_(options), matrix_(system), ladder_(options.algorithm), forces_(system), least_scale_(system.negligible_force()),
       description_(forces_.describe(system.contacts())) {
   if (!options.projection) return;
   description_.emplace_back("penetrations are moved back to gap 0 after each step");

@@ -2,21 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 namespace nsframe {
-
-namespace {
-
-bool moves_supports(const Model& model) {
-  return std::any_of(model.driven.begin(), model.driven.end(), [](const VectorX& unit) { return unit.size() > 0; });
-}
-
-}  // namespace
 
 ReducedSimulation::ReducedSimulation(const Model& model, const AnalysisOptions& options) : model_(model) {
   const Model* used = &model;
-  if (moves_supports(model)) {
+  if (model.drives_dofs()) {
     larger_.emplace().model = &model;
     held_ = without_moved_supports(model, larger_->reduction);
     used = &held_;
@@ -50,7 +40,7 @@ Summary ReducedSimulation::run(const std::vector<Observer*>& observers, const Ru
   return summary;
 }
 
-const Model& ReducedSimulation::held() const { return moves_supports(model_) ? held_ : model_; }
+const Model& ReducedSimulation::held() const { return model_.drives_dofs() ? held_ : model_; }
 
 std::vector<std::string> ReducedSimulation::describe() const {
   std::vector<std::string> lines = simulation_->scheme().describe();

@@ -14,7 +14,7 @@ class ThetaMethod : public FlightMethod {
  public:
   ThetaMethod(const AnalysisOptions& options, const System& system)
       : options_(options), own_{IterationMatrix(system), system.initial_stiffness}, ladder_(options.algorithm),
-        least_scale_(negligible_acceleration * system.mass().diagonal().norm() + system.member_load),
+        least_scale_(system.negligible_force()),
         massless_(massless_dofs(system)) {}
 
   void step(System& system, const FlightStep& step, Motion& end, StepResult& result) override;

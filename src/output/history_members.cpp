@@ -143,9 +143,8 @@ class SectionPart : public HistoryPart {
     for (const auto& kind : kinds_) {
       double* deformation = (series++)->add_row();
       double* force = (series++)->add_row();
-      double* const shear = kind.with_shear ? (series++)->add_row() : nullptr;
-      double* const shear_force = kind.with_shear ? (series++)->add_row() : nullptr;
-      std::ptrdiff_t at = 0;
+      double* shear = kind.with_shear ? (series++)->add_row() : nullptr;
+      double* shear_force = kind.with_shear ? (series++)->add_row() : nullptr;
       double* strain_ratio = (series++)->add_row();
       double* yielded = (series++)->add_row();
       for (const auto& member : kind.members) {
@@ -153,9 +152,8 @@ class SectionPart : public HistoryPart {
           deformation = std::copy_n(section.deformation.data(), 3, deformation);
           force = std::copy_n(section.force.data(), 3, force);
           if (kind.with_shear) {
-            std::copy_n(section.shear_deformation.data(), 3, shear + at);
-            std::copy_n(section.shear_force.data(), 3, shear_force + at);
-            at += 3;
+            shear = std::copy_n(section.shear_deformation.data(), 3, shear);
+            shear_force = std::copy_n(section.shear_force.data(), 3, shear_force);
           }
           *strain_ratio++ = section.peak_strain_ratio;
           *yielded++ = section.yielded;

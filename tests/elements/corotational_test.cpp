@@ -3,39 +3,21 @@
 
 #include <functional>
 #include <memory>
-#include <random>
 
 #include "base/rotation.hpp"
 #include "elements/displacement_beam.hpp"
 #include "elements/elastic_beam.hpp"
 #include "elements/force_beam.hpp"
 #include "elements/truss.hpp"
+#include "tests/support/element_probe.hpp"
 
 using namespace nsframe;
+using namespace nsframe::test;
 
 namespace {
 
-const Vector3 node_i(0.2, -0.1, 0.3), node_j(1.1, 0.9, 2.4);
-const std::array<Vector3, 2> arms{Vector3(0.1, 0.25, -0.05), Vector3(-0.2, 0.1, -0.3)};
 const ElasticSection rectangle{210e9, 81e9, 3e-3, 1e-5, 4e-6, 8e-8};
 const Steel02 steel{235e6, 210e9, 0.01};
-
-class Random {
- public:
-  double operator()() { return uniform_(engine_); }
-  Vector3 vector(double size) { return size * Vector3((*this)(), (*this)(), (*this)()); }
-  Quaternion rotation() { return Quaternion(Eigen::Vector4d((*this)(), (*this)(), (*this)(), (*this)())).normalized(); }
-
- private:
-  std::mt19937 engine_{42};
-  std::uniform_real_distribution<double> uniform_{-1, 1};
-};
-
-BeamFrame frame(bool offsets) {
-  const Vector3 i = offsets ? Vector3(node_i + arms[0]) : node_i, j = offsets ? Vector3(node_j + arms[1]) : node_j;
-  return offsets ? BeamFrame(i, j, beam_axes(i, j, Vector3(0.3, 1, 0.1)), arms)
-                 : BeamFrame(i, j, beam_axes(i, j, Vector3(0.3, 1, 0.1)));
-}
 
 std::shared_ptr<const FiberSection> fibers() {
   std::vector<Fiber> list;
@@ -46,7 +28,7 @@ std::shared_ptr<const FiberSection> fibers() {
 }
 
 FiberMember fiber_member(bool offsets) {
-  return {frame(offsets), gauss_lobatto(5), std::vector<std::shared_ptr<const FiberSection>>(5, fibers())};
+  return {leaning_frame(offsets), gauss_lobatto(5), std::vector<std::shared_ptr<const FiberSection>>(5, fibers())};
 }
 
 struct Case {
@@ -62,57 +44,17 @@ std::vector<Case> all_members(Geometry geometry = Geometry::corotational) {
   };
   for (const bool offsets : {false, true}) {
     const std::string suffix = offsets ? " with offsets" : "";
-    add("elastic" + suffix, std::make_unique<ElasticBeams>(geometry), ElasticMember{frame(offsets), rectangle});
+    add("elastic" + suffix, std::make_unique<ElasticBeams>(geometry), ElasticMember{leaning_frame(offsets), rectangle});
     add("displacement" + suffix, std::make_unique<DisplacementBeams>(geometry), fiber_member(offsets));
     add("force" + suffix, std::make_unique<ForceBeams>(geometry), fiber_member(offsets));
   }
-  add("truss", std::make_unique<Trusses>(Trusses::Kind::nonlinear, geometry), frame(false), steel, 2e-4, 5e3);
-  add("cable", std::make_unique<Trusses>(Trusses::Kind::cable, geometry), frame(false), Elastic{160e9}, 1e-4, 2e3);
+  add("truss", std::make_unique<Trusses>(Trusses::Kind::nonlinear, geometry), leaning_frame(false), steel, 2e-4, 5e3);
+  add("cable", std::make_unique<Trusses>(Trusses::Kind::cable, geometry), leaning_frame(false), Elastic{160e9}, 1e-4, 2e3);
   return cases;
 }
 
-class Probe {
- public:
-  explicit Probe(const ElementGroup& group) : group_(group) {
-    committed_ = VectorX::Zero(std::max(1, group.history_begin(1)));
-    group.initialize_history(0, committed_.data());
-    trial_ = committed_;
-  }
-  Vector12 force(const Vector12& u, Matrix12* tangent = nullptr) {
-    Vector12 f;
-    group_.start_step(0, committed_.data(), trial_.data());
-    group_.respond(0, u, committed_.data(), trial_.data(), f, tangent);
-    return f;
-  }
-  void commit() { committed_ = trial_; }
-
- private:
-  const ElementGroup& group_;
-  VectorX committed_, trial_;
-};
-
-// Displacements that turn the element about the origin by `turn` and move it by `shift` after the ends have been moved
-// and turned by `deformation` (12); rotational DOFs from zero in one increment.
-Vector12 moved(const Vector12& deformation, const Quaternion& turn, const Vector3& shift) {
-  Vector12 u;
-  const std::array<Vector3, 2> place{node_i, node_j};
-  for (int end = 0; end < 2; ++end) {
-    const Vector3& x = place[static_cast<std::size_t>(end)];
-    u.segment<3>(6 * end) = turn * (x + deformation.segment<3>(6 * end)) + shift - x;
-    const Quaternion all = turn * rotation_exponential(deformation.segment<3>(6 * end + 3));
-    u.segment<3>(6 * end + 3) = rotation_logarithm(all.toRotationMatrix());
-  }
-  return u;
-}
-
-Vector12 deformation(Random& random, double size) {
-  Vector12 d;
-  for (int i = 0; i < 12; ++i) d[i] = size * random();
-  return d;
-}
-
 // Stiffness times what a rotation's rounding moves.
-double rounding_force(Probe& probe) {
+double rounding_force(ElementProbe& probe) {
   Matrix12 tangent;
   probe.force(Vector12::Zero(), &tangent);
   return 1e-14 * tangent.cwiseAbs().maxCoeff();
@@ -127,22 +69,22 @@ Vector12 turned(const Vector12& force, const Quaternion& turn) {
 }  // namespace
 
 TEST_CASE("the tangent of corotational members equals central differences at large rotations, from any committed state") {
-  Random random;
+  RandomMotion random(42);
   for (const Case& c : all_members()) {
     CAPTURE(c.name);
     for (int repeat = 0; repeat < 5; ++repeat) {
-      Probe probe(*c.group);
-      probe.force(moved(deformation(random, 0.02), random.rotation(), random.vector(3)));
-      const Vector12 start = moved(deformation(random, 0.02), random.rotation(), random.vector(3));
+      ElementProbe probe(*c.group);
+      probe.force(moved(random.vector12(0.02), random.rotation(), random.vector(3)));
+      const Vector12 start = moved(random.vector12(0.02), random.rotation(), random.vector(3));
       probe.force(start);
       probe.commit();
-      Vector12 u = start + deformation(random, 0.05);  // increments of rotation that differ at the ends
+      Vector12 u = start + random.vector12(0.05);  // increments of rotation that differ at the ends
       if (repeat > 2) {
         const Quaternion turn = rotation_exponential(random.vector(1.0));
         for (int end = 0; end < 2; ++end) {  // with a common finite rotation on top, about node i
           u.segment<3>(6 * end + 3) += rotation_logarithm(turn.toRotationMatrix());
         }
-        const Vector3 chord = node_j + u.segment<3>(6) - node_i - u.segment<3>(0);
+        const Vector3 chord = leaning_j + u.segment<3>(6) - leaning_i - u.segment<3>(0);
         u.segment<3>(6) += turn * chord - chord;
       }
       Matrix12 tangent, differences;
@@ -160,10 +102,10 @@ TEST_CASE("the tangent of corotational members equals central differences at lar
 }
 
 TEST_CASE("rigid motion of any size makes no force in a corotational member") {
-  Random random;
+  RandomMotion random(42);
   for (const Case& c : all_members()) {
     CAPTURE(c.name);
-    Probe probe(*c.group);
+    ElementProbe probe(*c.group);
     const double rounding = rounding_force(probe);
     const Vector12 at_rest = probe.force(Vector12::Zero());  // pretension
     for (int repeat = 0; repeat < 20; ++repeat) {
@@ -175,10 +117,10 @@ TEST_CASE("rigid motion of any size makes no force in a corotational member") {
 }
 
 TEST_CASE("a rigid motion in many increments about changing axes ends without force") {
-  Random random;
+  RandomMotion random(42);
   for (const Case& c : all_members()) {
     CAPTURE(c.name);
-    Probe probe(*c.group);
+    ElementProbe probe(*c.group);
     const double rounding = rounding_force(probe);
     const Vector12 at_rest = probe.force(Vector12::Zero());
     Quaternion all = Quaternion::Identity();
@@ -187,7 +129,7 @@ TEST_CASE("a rigid motion in many increments about changing axes ends without fo
       const Vector3 increment = random.vector(1.0);
       all = rotation_exponential(increment) * all;
       for (const int end : {0, 1}) {
-        const Vector3& x = end == 0 ? node_i : node_j;
+        const Vector3& x = end == 0 ? leaning_i : leaning_j;
         u.segment<3>(6 * end) = all * x - x;
         u.segment<3>(6 * end + 3) += increment;
       }
@@ -199,12 +141,12 @@ TEST_CASE("a rigid motion in many increments about changing axes ends without fo
 }
 
 TEST_CASE("forces of a deformed corotational member turn with it") {
-  Random random;
+  RandomMotion random(42);
   for (const Case& c : all_members()) {
     CAPTURE(c.name);
     for (int repeat = 0; repeat < 10; ++repeat) {
-      Probe probe(*c.group), turned_probe(*c.group);
-      const Vector12 d = deformation(random, 0.03);
+      ElementProbe probe(*c.group), turned_probe(*c.group);
+      const Vector12 d = random.vector12(0.03);
       const Quaternion turn = random.rotation();
       const Vector12 f = probe.force(d);
       // a force-based element's sections stop at 1e-4 of the step's change
@@ -215,12 +157,12 @@ TEST_CASE("forces of a deformed corotational member turn with it") {
 }
 
 TEST_CASE("forces of a corotational member are in equilibrium in the deformed place") {
-  Random random;
+  RandomMotion random(42);
   for (const Case& c : all_members()) {
     CAPTURE(c.name);
-    Probe probe(*c.group);
-    const Vector12 u = moved(deformation(random, 0.05), random.rotation(), random.vector(3)), f = probe.force(u);
-    const Vector3 x_i = node_i + u.segment<3>(0), x_j = node_j + u.segment<3>(6);
+    ElementProbe probe(*c.group);
+    const Vector12 u = moved(random.vector12(0.05), random.rotation(), random.vector(3)), f = probe.force(u);
+    const Vector3 x_i = leaning_i + u.segment<3>(0), x_j = leaning_j + u.segment<3>(6);
     const Vector3 force_i = f.segment<3>(0), force_j = f.segment<3>(6);
     CHECK((force_i + force_j).norm() <= 1e-12 * f.norm());
     CHECK((f.segment<3>(3) + f.segment<3>(9) + x_i.cross(force_i) + x_j.cross(force_j)).norm() <= 1e-11 * f.norm());
@@ -228,12 +170,12 @@ TEST_CASE("forces of a corotational member are in equilibrium in the deformed pl
 }
 
 TEST_CASE("the work on an elastic corotational member equals its strain energy") {
-  Random random;
+  RandomMotion random(42);
   for (const bool offsets : {false, true}) {
     ElasticBeams beams(Geometry::corotational);
-    beams.add({0, 1}, "e", {frame(offsets), rectangle});
-    Probe probe(beams);
-    const Vector12 end = moved(deformation(random, 0.1), rotation_exponential(Vector3(0.5, -1.2, 0.8)), random.vector(1));
+    beams.add({0, 1}, "e", {leaning_frame(offsets), rectangle});
+    ElementProbe probe(beams);
+    const Vector12 end = moved(random.vector12(0.1), rotation_exponential(Vector3(0.5, -1.2, 0.8)), random.vector(1));
     const Quadrature rule = gauss_lobatto(10);
     constexpr int pieces = 8;
     double work = 0;  // along u = s end, on which the spin of each node is that of s: its rotational DOFs
@@ -245,19 +187,19 @@ TEST_CASE("the work on an elastic corotational member equals its strain energy")
     }
     std::vector<double> history(14), trial(14);
     beam_geometry(Geometry::corotational).initialize_history(history.data());
-    const Vector6 v = beam_geometry(Geometry::corotational).deformation(frame(offsets), end, history.data(), trial.data());
-    const double energy = 0.5 * v.dot(elastic_basic_stiffness(rectangle, frame(offsets).length) * v);
+    const Vector6 v = beam_geometry(Geometry::corotational).deformation(leaning_frame(offsets), end, history.data(), trial.data());
+    const double energy = 0.5 * v.dot(elastic_basic_stiffness(rectangle, leaning_frame(offsets).length) * v);
     CHECK(work == doctest::Approx(energy).epsilon(1e-9));
   }
 }
 
 TEST_CASE("small displacements of a corotational member give the forces of linear geometry, offsets included") {
-  Random random;
+  RandomMotion random(42);
   const std::vector<Case> linear = all_members(Geometry::linear), corotational = all_members();
   for (std::size_t i = 0; i < linear.size(); ++i) {
     CAPTURE(linear[i].name);
-    Probe a(*linear[i].group), b(*corotational[i].group);
-    const Vector12 u = deformation(random, 1e-9);
+    ElementProbe a(*linear[i].group), b(*corotational[i].group);
+    const Vector12 u = random.vector12(1e-9);
     const Vector12 f = a.force(u) - a.force(Vector12::Zero());
     // pretension turns with the chord in one of them only; without it the error is of second order
     if (linear[i].name == "truss" || linear[i].name == "cable") continue;
@@ -266,16 +208,16 @@ TEST_CASE("small displacements of a corotational member give the forces of linea
 }
 
 TEST_CASE("a rigid arm in linear geometry gives the forces of a member tied to its nodes by small rotations") {
-  Random random;
+  RandomMotion random(42);
   ElasticBeams with(Geometry::linear), without(Geometry::linear);
-  with.add({0, 1}, "a", {frame(true), rectangle});
-  const BeamFrame far(node_i + arms[0], node_j + arms[1], frame(true).axes);
+  with.add({0, 1}, "a", {leaning_frame(true), rectangle});
+  const BeamFrame far(leaning_i + leaning_arms[0], leaning_j + leaning_arms[1], leaning_frame(true).axes);
   without.add({0, 1}, "b", {far, rectangle});
-  Probe a(with), b(without);
-  const Vector12 u = deformation(random, 0.01);
+  ElementProbe a(with), b(without);
+  const Vector12 u = random.vector12(0.01);
   Vector12 at_ends = u;
-  for (const int end : {0, 1}) at_ends.segment<3>(6 * end) += u.segment<3>(6 * end + 3).cross(arms[static_cast<std::size_t>(end)]);
+  for (const int end : {0, 1}) at_ends.segment<3>(6 * end) += u.segment<3>(6 * end + 3).cross(leaning_arms[static_cast<std::size_t>(end)]);
   Vector12 f = b.force(at_ends);
-  for (const int end : {0, 1}) f.segment<3>(6 * end + 3) += arms[static_cast<std::size_t>(end)].cross(f.segment<3>(6 * end).eval());
+  for (const int end : {0, 1}) f.segment<3>(6 * end + 3) += leaning_arms[static_cast<std::size_t>(end)].cross(f.segment<3>(6 * end).eval());
   CHECK((a.force(u) - f).norm() < 1e-13 * f.norm());
 }

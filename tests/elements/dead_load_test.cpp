@@ -3,27 +3,21 @@
 
 #include <functional>
 #include <memory>
-#include <random>
 
 #include "base/rotation.hpp"
 #include "elements/displacement_beam.hpp"
 #include "elements/elastic_beam.hpp"
 #include "elements/force_beam.hpp"
+#include "tests/support/element_probe.hpp"
 
 using namespace nsframe;
+using namespace nsframe::test;
 
 namespace {
 
-const Vector3 dead_i(0.2, -0.1, 0.3), dead_j(1.1, 0.9, 2.4);
-const std::array<Vector3, 2> dead_arms{Vector3(0.1, 0.25, -0.05), Vector3(-0.2, 0.1, -0.3)};
 const ElasticSection dead_section{2.1e9, 8.1e8, 3e-3, 1e-5, 4e-6, 8e-6, 2e-3, 1.5e-3};  // deforms in shear
 const Vector3 dead_uniform(900, -2500, 1400);                                          // [N/m]
 const Vector3 dead_force(-700, 1500, 2100), second_force(400, -300, -900);             // [N]
-
-BeamFrame dead_frame(bool offsets) {
-  const Vector3 i = offsets ? Vector3(dead_i + dead_arms[0]) : dead_i, j = offsets ? Vector3(dead_j + dead_arms[1]) : dead_j;
-  return offsets ? BeamFrame(i, j, beam_axes(i, j, Vector3(0.3, 1, 0.1)), dead_arms) : BeamFrame(i, j, beam_axes(i, j, Vector3(0.3, 1, 0.1)));
-}
 
 enum class Direction { dead, local, both };
 
@@ -49,7 +43,7 @@ std::shared_ptr<const FiberSection> dead_fibers(const UniaxialLaw& law, bool add
 }
 
 FiberMember dead_fiber_member(bool offsets, const UniaxialLaw& law, const MemberLoad& load, const Releases& releases, bool added = false) {
-  return {dead_frame(offsets), gauss_lobatto(5), std::vector<std::shared_ptr<const FiberSection>>(5, dead_fibers(law, added)), {}, load, releases};
+  return {leaning_frame(offsets), gauss_lobatto(5), std::vector<std::shared_ptr<const FiberSection>>(5, dead_fibers(law, added)), {}, load, releases};
 }
 
 struct DeadCase {
@@ -70,7 +64,7 @@ std::vector<DeadCase> dead_cases(const UniaxialLaw& law, Direction direction) {
     for (const bool hinged : {false, true}) {
       const std::string suffix = std::string(offsets ? " with offsets" : "") + (hinged ? " with hinges" : "");
       const Releases releases = hinged ? Releases{{false, true, false, true, true, false}} : Releases{};
-      add("elastic" + suffix, std::make_unique<ElasticBeams>(large), ElasticMember{dead_frame(offsets), dead_section, {}, load, releases}, true);
+      add("elastic" + suffix, std::make_unique<ElasticBeams>(large), ElasticMember{leaning_frame(offsets), dead_section, {}, load, releases}, true);
       add("displacement" + suffix, std::make_unique<DisplacementBeams>(large), dead_fiber_member(offsets, law, load, releases), !hinged);
       add("force" + suffix, std::make_unique<ForceBeams>(large), dead_fiber_member(offsets, law, load, releases), false);
       add("force with shear" + suffix, std::make_unique<AggregatedForceBeams>(large), dead_fiber_member(offsets, law, load, releases, true), false);
@@ -79,61 +73,9 @@ std::vector<DeadCase> dead_cases(const UniaxialLaw& law, Direction direction) {
   return cases;
 }
 
-class DeadProbe {
- public:
-  explicit DeadProbe(const ElementGroup& group, double part = 1) : group_(group) {
-    committed_ = VectorX::Zero(group.history_begin(1));
-    group.initialize_history(0, committed_.data());
-    *group.load_factor(0, committed_.data()) = part;
-    trial_ = committed_;
-  }
-  Vector12 force(const Vector12& u, Matrix12* tangent = nullptr) {
-    Vector12 f;
-    group_.start_step(0, committed_.data(), trial_.data());
-    group_.respond(0, u, committed_.data(), trial_.data(), f, tangent);
-    return f;
-  }
-  Matrix12 change(const Vector12& u, const Vector12& step) {
-    group_.start_step(0, committed_.data(), trial_.data());
-    return group_.geometric_change(0, u, step, 0, committed_.data(), trial_.data());
-  }
-  void commit() { committed_ = trial_; }
-
- private:
-  const ElementGroup& group_;
-  VectorX committed_, trial_;
-};
-
-class DeadRandom {
- public:
-  double operator()() { return uniform_(engine_); }
-  Vector3 vector(double size) { return size * Vector3((*this)(), (*this)(), (*this)()); }
-  Vector12 vector12(double size) {
-    Vector12 d;
-    for (int i = 0; i < 12; ++i) d[i] = size * (*this)();
-    return d;
-  }
-
- private:
-  std::mt19937 engine_{7};
-  std::uniform_real_distribution<double> uniform_{-1, 1};
-};
-
-// The nodes turned by exp(turn) about the origin and moved by `shift`, after `deformation` (12).
-Vector12 dead_moved(const Vector12& deformation, const Vector3& turn, const Vector3& shift) {
-  const Quaternion q = rotation_exponential(turn);
-  Vector12 u;
-  for (int end = 0; end < 2; ++end) {
-    const Vector3& x = end == 0 ? dead_i : dead_j;
-    u.segment<3>(6 * end) = q * (x + deformation.segment<3>(6 * end)) + shift - x;
-    u.segment<3>(6 * end + 3) = rotation_logarithm((q * rotation_exponential(deformation.segment<3>(6 * end + 3))).toRotationMatrix());
-  }
-  return u;
-}
-
 // Work of the element's forces along the straight path from a to b: moments do theirs on the spins of the nodes, whose rotation
 // since the (virgin) committed state is exp of their DOFs.
-double work_along(DeadProbe& probe, const Vector12& a, const Vector12& b) {
+double work_along(ElementProbe& probe, const Vector12& a, const Vector12& b) {
   const Quadrature rule = gauss_lobatto(10);
   constexpr int pieces = 6;
   double work = 0;
@@ -151,13 +93,13 @@ double work_along(DeadProbe& probe, const Vector12& a, const Vector12& b) {
 }  // namespace
 
 TEST_CASE("the tangent of members with dead loads equals central differences at large rotations, elastic and yielding") {
-  DeadRandom random;
+  RandomMotion random(7);
   for (const UniaxialLaw& law : {UniaxialLaw(Elastic{2.1e9}), UniaxialLaw(Steel02{2e7, 2.1e9, 0.01})}) {
     for (const Direction direction : {Direction::dead, Direction::both}) {
       for (const DeadCase& c : dead_cases(law, direction)) {
         CAPTURE(c.name);
-        DeadProbe probe(*c.group);
-        const Vector12 start = dead_moved(random.vector12(0.02), random.vector(1.5), random.vector(3));
+        ElementProbe probe(*c.group);
+        const Vector12 start = moved(random.vector12(0.02), rotation_exponential(random.vector(1.5)), random.vector(3));
         probe.force(start);
         probe.commit();
         const Vector12 u = start + random.vector12(0.03);
@@ -177,14 +119,14 @@ TEST_CASE("the tangent of members with dead loads equals central differences at 
 }
 
 TEST_CASE("the work on an elastic member under dead loads doesn't depend on the path; under loads that turn with it it does") {
-  DeadRandom random;
+  RandomMotion random(7);
   for (const Direction direction : {Direction::dead, Direction::local}) {
     double most = 0;
     for (const DeadCase& c : dead_cases(Elastic{2.1e9}, direction)) {
       CAPTURE(c.name);
-      DeadProbe probe(*c.group);
-      const Vector12 a = dead_moved(random.vector12(0.05), random.vector(0.6), random.vector(1));
-      const Vector12 b = dead_moved(random.vector12(0.05), random.vector(0.6), random.vector(1));
+      ElementProbe probe(*c.group);
+      const Vector12 a = moved(random.vector12(0.05), rotation_exponential(random.vector(0.6)), random.vector(1));
+      const Vector12 b = moved(random.vector12(0.05), rotation_exponential(random.vector(0.6)), random.vector(1));
       // through deformations that differ: with less, a path of rigid motions would hide what the load does on bent members
       const double loop = work_along(probe, Vector12::Zero(), a) + work_along(probe, a, b) + work_along(probe, b, Vector12::Zero());
       const double scale = std::abs(work_along(probe, Vector12::Zero(), a));
@@ -199,23 +141,23 @@ TEST_CASE("the work on an elastic member under dead loads doesn't depend on the 
 }
 
 TEST_CASE("forces of a bent clamped member are in equilibrium with dead loads at the places to which these have moved") {
-  DeadRandom random;
-  const double L = (dead_j - dead_i).norm();
+  RandomMotion random(7);
+  const double L = (leaning_j - leaning_i).norm();
   ElasticSection s = dead_section;
   s.Ay = s.Az = 0;
   MemberLoad load;
   load.dead_uniform = dead_uniform;
   load.dead_points = {{0.5, dead_force}};
   ElasticBeams beams(Geometry::corotational);
-  beams.add({0, 1}, "e", {dead_frame(false), s, {}, load});
+  beams.add({0, 1}, "e", {leaning_frame(false), s, {}, load});
   const MemberGeometry& geometry = beam_geometry(Geometry::corotational);
   for (int repeat = 0; repeat < 5; ++repeat) {
-    DeadProbe probe(beams);
-    const Vector12 u = dead_moved(random.vector12(0.05), random.vector(2), random.vector(3)), f = probe.force(u);
+    ElementProbe probe(beams);
+    const Vector12 u = moved(random.vector12(0.05), rotation_exponential(random.vector(2)), random.vector(3)), f = probe.force(u);
     std::vector<double> history(14), trial(14);
     geometry.initialize_history(history.data());
-    const Vector6 v = geometry.deformation(dead_frame(false), u, history.data(), trial.data());
-    const ElementPose pose = geometry.pose(dead_frame(false), u, history.data());
+    const Vector6 v = geometry.deformation(leaning_frame(false), u, history.data(), trial.data());
+    const ElementPose pose = geometry.pose(leaning_frame(false), u, history.data());
     // textbook deflections of a clamped beam under P in the middle and w all along, those of its ends' rotations beside
     const Vector3 w = pose.axes * dead_uniform, P = pose.axes * dead_force;
     const Vector3 stiff(s.E * s.A, s.E * s.Iz, s.E * s.Iy);
@@ -225,7 +167,7 @@ TEST_CASE("forces of a bent clamped member are in equilibrium with dead loads at
       middle[axis] += (P[axis] / 192 + w[axis] * L / 384) * L * L * L / stiff[axis];
       mean[axis] += (P[axis] / 384 + w[axis] * L / 720) * L * L * L / stiff[axis];
     }
-    const Vector3 x_i = dead_i + u.segment<3>(0), x_j = dead_j + u.segment<3>(6);
+    const Vector3 x_i = leaning_i + u.segment<3>(0), x_j = leaning_j + u.segment<3>(6);
     const auto place = [&](const Vector3& local) { return Vector3(x_i + pose.axes.transpose() * local); };
     CHECK((f.segment<3>(0) + f.segment<3>(6) + dead_force + L * dead_uniform).norm() < 1e-12 * f.norm());
     const Vector3 moment = f.segment<3>(3) + f.segment<3>(9) + x_i.cross(f.segment<3>(0).eval()) + x_j.cross(f.segment<3>(6).eval()) +
@@ -236,7 +178,7 @@ TEST_CASE("forces of a bent clamped member are in equilibrium with dead loads at
 
 TEST_CASE("the work under a dead load is strain energy minus the load times the way of its place") {
   // a clamped member of linear fibers under a load at its middle, moved rigidly: strain energy stays, the way is that of the middle
-  DeadRandom random;
+  RandomMotion random(7);
   MemberLoad load;
   load.dead_points = {{0.5, dead_force}};
   for (const bool force_based : {false, true}) {
@@ -250,19 +192,19 @@ TEST_CASE("the work under a dead load is strain energy minus the load times the 
       beams->add({0, 1}, "d", dead_fiber_member(false, Elastic{2.1e12}, load, {}));
       group = std::move(beams);
     }
-    DeadProbe probe(*group);
+    ElementProbe probe(*group);
     const Vector3 turn = random.vector(1.5);
-    const Vector12 end = dead_moved(Vector12::Zero(), turn, Vector3::Zero());
+    const Vector12 end = moved(Vector12::Zero(), rotation_exponential(turn), Vector3::Zero());
     // along the rotation itself: the nodes go on circles
     const Quadrature rule = gauss_lobatto(10);
     double work = 0;
     for (int piece = 0; piece < 6; ++piece) {
       for (std::size_t k = 0; k < rule.weight.size(); ++k) {
         const double at = (piece + rule.position[k]) / 6;
-        const Vector12 u = dead_moved(Vector12::Zero(), at * turn, Vector3::Zero());
+        const Vector12 u = moved(Vector12::Zero(), rotation_exponential(at * turn), Vector3::Zero());
         Vector12 rate;
         for (int e = 0; e < 2; ++e) {
-          rate.segment<3>(6 * e) = turn.cross(Vector3((e == 0 ? dead_i : dead_j) + u.segment<3>(6 * e)));
+          rate.segment<3>(6 * e) = turn.cross(Vector3((e == 0 ? leaning_i : leaning_j) + u.segment<3>(6 * e)));
           rate.segment<3>(6 * e + 3) = turn;
         }
         work += rule.weight[k] / 6 * probe.force(u).dot(rate);
@@ -275,11 +217,11 @@ TEST_CASE("the work under a dead load is strain energy minus the load times the 
 }
 
 TEST_CASE("along a step the tangent of elastic members with dead loads changes by what buckling takes for it") {
-  DeadRandom random;
+  RandomMotion random(7);
   for (const DeadCase& c : dead_cases(Elastic{2.1e9}, Direction::both)) {
     CAPTURE(c.name);
-    DeadProbe probe(*c.group);
-    const Vector12 u = dead_moved(random.vector12(0.02), random.vector(1.5), random.vector(3)), step = random.vector12(1e-3);
+    ElementProbe probe(*c.group);
+    const Vector12 u = moved(random.vector12(0.02), rotation_exponential(random.vector(1.5)), random.vector(3)), step = random.vector12(1e-3);
     Matrix12 after, before;
     probe.force(u + step, &after);
     probe.force(u - step, &before);

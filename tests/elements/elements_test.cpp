@@ -10,8 +10,10 @@
 #include "elements/force_beam.hpp"
 #include "elements/spring.hpp"
 #include "elements/truss.hpp"
+#include "tests/support/element_probe.hpp"
 
 using namespace nsframe;
+using namespace nsframe::test;
 
 namespace {
 
@@ -124,28 +126,6 @@ std::vector<Sample> all_elements() {
   return cases;
 }
 
-class SampleProbe {
- public:
-  explicit SampleProbe(const ElementGroup& group) : group_(group) {
-    committed_ = VectorX::Zero(std::max(1, group.history_begin(1)));
-    group.initialize_history(0, committed_.data());
-    if (double* const factor = group.load_factor(0, committed_.data())) *factor = 1;
-    trial_ = committed_;
-  }
-  Vector12 force(const Vector12& u, Matrix12* tangent = nullptr) {
-    Vector12 f;
-    group_.start_step(0, committed_.data(), trial_.data());
-    group_.respond(0, u, committed_.data(), trial_.data(), f, tangent);
-    return f;
-  }
-  void commit() { committed_ = trial_; }
-  const VectorX& committed() const { return committed_; }
-
- private:
-  const ElementGroup& group_;
-  VectorX committed_, trial_;
-};
-
 // Some translations and rotations that take the sections well beyond yield.
 Vector12 large_displacement() {
   Vector12 u;
@@ -158,7 +138,7 @@ Vector12 large_displacement() {
 TEST_CASE("the tangent of every element equals central differences, elastic, yielding and unloading") {
   for (const Sample& c : all_elements()) {
     CAPTURE(c.name);
-    SampleProbe probe(*c.group);
+    ElementProbe probe(*c.group);
     for (const double factor : {0.02, 1.0, 0.8}) {
       CAPTURE(factor);
       const Vector12 u = factor * large_displacement();
@@ -179,7 +159,7 @@ TEST_CASE("the tangent of every element equals central differences, elastic, yie
 TEST_CASE("rigid-body motion makes no force in any element") {
   for (const Sample& c : all_elements()) {
     CAPTURE(c.name);
-    SampleProbe probe(*c.group);
+    ElementProbe probe(*c.group);
     Matrix12 tangent;
     const Vector12 at_rest = probe.force(Vector12::Zero(), &tangent);
     const double scale = tangent.cwiseAbs().maxCoeff() * 1e-3;
@@ -204,7 +184,7 @@ TEST_CASE("a force-based member remembers that a section softened, and not one t
     const Steel01 law{235e6, 210e9, b};
     ForceBeams group(Geometry::linear);
     group.add({0, 1}, "f", fiber_member(skew_frame(), law));
-    SampleProbe probe(group);
+    ElementProbe probe(group);
     const Vector12 turn = 0.3 * (Vector12::Unit(11) - Vector12::Unit(5));  // ends turn against each other
     probe.force(0.001 * turn);
     probe.commit();
@@ -223,7 +203,7 @@ TEST_CASE("a force-based member remembers that a section softened, and not one t
 TEST_CASE("responding leaves the committed history as it was, and repeats to the same bits") {
   for (const Sample& c : all_elements()) {
     CAPTURE(c.name);
-    SampleProbe probe(*c.group);
+    ElementProbe probe(*c.group);
     const VectorX before = probe.committed();
     const Vector12 first = probe.force(large_displacement());
     CHECK(probe.committed() == before);
@@ -235,7 +215,7 @@ TEST_CASE("element forces are in equilibrium with each other about any point") {
   for (const Sample& c : all_elements()) {
     if (c.loaded || c.name == "spring" || c.name.ends_with("P-Delta") || c.name.ends_with("corotational")) continue;  // zero length; deformed equilibrium
     CAPTURE(c.name);
-    SampleProbe probe(*c.group);
+    ElementProbe probe(*c.group);
     const Vector12 f = probe.force(large_displacement());
     const Vector3 sum = f.segment<3>(0) + f.segment<3>(6);
     const Vector3 moment = f.segment<3>(3) + f.segment<3>(9) + end_i.cross(f.segment<3>(0).eval()) + end_j.cross(f.segment<3>(6).eval());
@@ -265,7 +245,7 @@ TEST_CASE("a cable is slack below its pretension and carries EA/L above") {
   const BeamFrame frame(Vector3::Zero(), Vector3(2, 0, 0), beam_axes(Vector3::Zero(), Vector3(2, 0, 0), {}));
   Trusses cables(Trusses::Kind::cable, Geometry::linear);
   cables.add({0, 1}, "c", frame, Elastic{160e9}, 1e-4, 2e3);
-  SampleProbe probe(cables);
+  ElementProbe probe(cables);
   const auto pull = [&](double elongation) { return probe.force(elongation * Vector12::Unit(6))[6]; };
   CHECK(pull(0) == doctest::Approx(2e3));
   CHECK(pull(1e-3) == doctest::Approx(2e3 + 160e9 * 1e-4 / 2 * 1e-3));
