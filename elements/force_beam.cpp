@@ -164,7 +164,8 @@ void ForceBeamsOf<n>::initialize_basic(int element, double* history) const {
 }
 
 // Basic forces and element tangent from the linearised sections: sum w b'(e + f (b q + s_load - s)) = v in the directions
-// without release, q = 0 in the others. Fills f. Without `new_tangents` the section tangents are those that the element
+// without release, q = 0 in the others. The basic forces are moved from where they were: a section that hardly resists has a
+// flexibility so large that f s would drown e. Fills f. Without `new_tangents` the section tangents are those that the element
 // tangent was found from.
 template <int n>
 void ForceBeamsOf<n>::balance(const Element& e, const Basic& deformation, const ActingLoad& acting, bool new_tangents, double* data,
@@ -172,15 +173,14 @@ void ForceBeamsOf<n>::balance(const Element& e, const Basic& deformation, const 
   Head<n> head(data);
   BasicMatrix flexibility = BasicMatrix::Zero();
   Basic wanted = deformation;
+  const Basic before = head.force;
   const double L = e.frame.length;
   for (int i = 0; i < e.points(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     f[at] = section_flexibility(e.section(i), head.section_tangent(i));
     const double x = e.position(i), weight = e.weight(i);
     const auto [component, b] = interpolation(x);
-    Section carried = head.section_force(i);
-    if (acting.part != 0) carried -= acting.part * load_force(*acting.load, x, L);
-    const Section remaining = weight * (head.section_deformation(i) - f[at] * carried);
+    const Section remaining = weight * (head.section_deformation(i) + f[at] * (section_force(e, before, acting, i) - head.section_force(i)));
     for (int j = 0; j < basics; ++j) {
       const auto column = static_cast<std::size_t>(j);
       wanted[j] -= b[column] * remaining[component[column]];
@@ -199,7 +199,7 @@ void ForceBeamsOf<n>::balance(const Element& e, const Basic& deformation, const 
     }
   }
   if (new_tangents) head.tangent = tangent_of(e, flexibility.template selfadjointView<Eigen::Upper>());
-  head.force = head.tangent * wanted;
+  head.force = before + head.tangent * wanted;
 }
 
 template <int n>

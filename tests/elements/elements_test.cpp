@@ -200,6 +200,36 @@ TEST_CASE("a force-based member remembers that a section softened, and not one t
   }
 }
 
+TEST_CASE("a force-based member with sections that hardly resist finds its forces in small increments") {
+  for (const double b : {3e-5, -3e-5, 1e-7}) {
+    CAPTURE(b);
+    ForceBeams group(Geometry::linear);
+    FiberMember member = fiber_member(skew_frame(), Steel01{235e6, 210e9, b});
+    member.releases.basic = {false, false, true, false, true, false};  // so that one end alone yields
+    group.add({0, 1}, "f", member);
+    ElementProbe probe(group);
+    Vector12 direction = Vector12::Zero(), u = Vector12::Zero(), force;
+    direction.segment<3>(6) << 1, -0.7, -0.1;  // bends both ways and stretches
+    for (int i = 0; i < 100; ++i) {
+      u += 2e-3 * direction;
+      probe.force(u);
+      probe.commit();
+    }
+    Matrix12 tangent;
+    Vector12 before = probe.force(u, &tangent);
+    for (const double increment : {1e-5, 1e-6, 1e-7, 1e-8}) {
+      CAPTURE(increment);
+      for (int i = 0; i < 30; ++i) {
+        u += increment * direction;
+        REQUIRE_NOTHROW(force = probe.force(u, &tangent));
+        CHECK((force - before - increment * (tangent * direction)).norm() < 1e-3 * increment * (tangent * direction).norm() + 1e-10 * force.norm());
+        probe.commit();
+        before = force;
+      }
+    }
+  }
+}
+
 TEST_CASE("responding leaves the committed history as it was, and repeats to the same bits") {
   for (const Sample& c : all_elements()) {
     CAPTURE(c.name);
