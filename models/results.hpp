@@ -189,6 +189,7 @@ struct Savings {
   int massless_dofs = 0;               // that linear elements alone meet, where the scheme does not condense them itself
   int condensed_dofs = 0;              // of these, those that were condensed
   double condensed_entries = 1;        // entries of factors and stiffness that are left, relative to those without
+  double stored_entries = 1;           // entries of factors and stiffness that are kept in memory, relative to those that a step meets: others equal them
 };
 
 // Where the scheme `exact` ended ever faster impacts (theory.md, 171-172).

@@ -21,6 +21,8 @@ class Assembler {
   const std::vector<BlockRange>& blocks() const { return blocks_; }
   int threads() const { return threads_; }
   long fibers() const { return fibers_; }
+  // Of the stiffness of linear elements.
+  StoredEntries stiffness_entries() const { return linear_operator_.entries(); }
   int linear_elements() const { return static_cast<int>(linear_.size()); }
   // Fibers in quiet sections (screening.hpp).
   long quiet_fibers(const VectorX& history) const;

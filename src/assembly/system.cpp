@@ -12,15 +12,21 @@ void Damping::form_tangent(const VectorX& committed, const SparseMatrix& current
   }
 }
 
-void Damping::add_force(const std::vector<BlockRange>& blocks, double factor, const VectorX& velocity,
-                        VectorX& force) const {
-  if (viscous.nonZeros() > 0) force.noalias() += factor * (viscous * velocity);
-  if (tangent.nonZeros() > 0) force.noalias() += factor * (tangent * velocity);
+double Damping::add_force(const std::vector<BlockRange>& blocks, double factor, const VectorX& velocity, VectorX& force) const {
+  double power = 0;
+  for (const SparseMatrix* matrix : {&viscous, &tangent}) {
+    if (matrix->nonZeros() == 0) continue;
+    const VectorX own = factor * (*matrix * velocity);
+    power += velocity.dot(own);
+    force += own;
+  }
   for (std::size_t i = 0; i < modal.size(); ++i) {
     if (modal[i].cols() == 0) continue;
     const VectorX rates = modal[i].transpose() * velocity.segment(blocks[i].first, blocks[i].size());
+    power += factor * rates.squaredNorm();
     force.segment(blocks[i].first, blocks[i].size()).noalias() += modal[i] * (factor * rates);
   }
+  return power;
 }
 
 System::System(const Model& the_model, int threads)

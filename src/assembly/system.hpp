@@ -17,8 +17,8 @@ struct Damping {
   // Forms `tangent` from the entries of both stiffnesses.
   void form_tangent(const VectorX& committed, const SparseMatrix& current);
 
-  // force += factor * C velocity
-  void add_force(const std::vector<BlockRange>& blocks, double factor, const VectorX& velocity, VectorX& force) const;
+  // force += factor * C velocity; returns factor * velocity' C velocity.
+  double add_force(const std::vector<BlockRange>& blocks, double factor, const VectorX& velocity, VectorX& force) const;
 };
 
 // Accelerations below this count as zero when residuals are judged [m/s2].

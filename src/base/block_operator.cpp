@@ -33,6 +33,15 @@ void BlockOperator::add(Block block) {
   blocks_.push_back(std::move(block));
 }
 
+StoredEntries BlockOperator::entries() const {
+  StoredEntries sum;
+  for (const Block& block : blocks_) {
+    const long all = static_cast<long>(block.range.size()) * block.range.size();
+    sum += block.dense.empty() ? block.sparse.entries() : StoredEntries{all, all};
+  }
+  return sum;
+}
+
 void BlockOperator::multiply(const VectorX& x, VectorX& y) const {
   y.resize(x.size());
   parallel_for(static_cast<int>(blocks_.size()), threads_, [&](int i) {

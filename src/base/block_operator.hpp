@@ -29,6 +29,7 @@ class BlockOperator {
   // y = A x and y2 = A x2, for less than twice the time of one.
   void multiply(const VectorX& x, const VectorX& x2, VectorX& y, VectorX& y2) const;
   int size() const { return size_; }
+  StoredEntries entries() const;
   // Of multiply(): a thread a block.
   void set_threads(int threads) { threads_ = threads; }
 

@@ -78,29 +78,32 @@ void multiply_two_target(const double* A, int rows, int columns, const double* x
   over_rows<6>(rows, [=]<int n>(int row) { multiply_rows<n>(A + row, rows, columns, x, x2, y + row, y2 + row); });
 }
 
-void chunks_target(int chunks, bool backward, const int* begin, const int* columns, const double* values, const double* x, double* y) {
+void chunks_target(int chunks, bool backward, const int* begins, const int* ends, const int* columns, const double* values, const double* x,
+                   double* y) {
   const hn::CappedTag<double, 4> tag;
   constexpr int width = static_cast<int>(hn::MaxLanes(hn::CappedTag<double, 4>())), vectors = 4 / width, ways = 4;
   for (int i = 0; i < chunks; ++i) {
-    int j = begin[i];
-    const int end = begin[i + 1];
+    int j = begins[i];
+    const int end = ends[i];
+    const long row = 4L * (backward ? chunks - 1 - i : i);
+    const double* const from = x + row;
     hn::Vec<decltype(tag)> sum[ways][vectors];
     for (auto& way : sum) {
       for (auto& part : way) part = hn::Zero(tag);
     }
     for (; j + ways <= end; j += ways) {
       for (int way = 0; way < ways; ++way) {
-        const auto factor = hn::Set(tag, x[columns[j + way]]);
+        const auto factor = hn::Set(tag, from[columns[j + way]]);
         const double* const column = values + 4L * (j + way);
         for (int k = 0; k < vectors; ++k) sum[way][k] = hn::MulAdd(hn::LoadU(tag, column + k * width), factor, sum[way][k]);
       }
     }
     for (; j < end; ++j) {
-      const auto factor = hn::Set(tag, x[columns[j]]);
+      const auto factor = hn::Set(tag, from[columns[j]]);
       for (int k = 0; k < vectors; ++k) sum[0][k] = hn::MulAdd(hn::LoadU(tag, values + 4L * j + k * width), factor, sum[0][k]);
     }
     for (int k = 0; k < vectors; ++k) {
-      hn::StoreU(hn::Add(hn::Add(sum[0][k], sum[1][k]), hn::Add(sum[2][k], sum[3][k])), tag, y + 4L * (backward ? chunks - 1 - i : i) + k * width);
+      hn::StoreU(hn::Add(hn::Add(sum[0][k], sum[1][k]), hn::Add(sum[2][k], sum[3][k])), tag, y + row + k * width);
     }
   }
 }
@@ -124,8 +127,9 @@ void dense_multiply(const double* A, int rows, int columns, const double* x, con
   HWY_DYNAMIC_DISPATCH(multiply_two_target)(A, rows, columns, x, x2, y, y2);
 }
 
-void apply_chunks(int chunks, bool backward, const int* begin, const int* columns, const double* values, const double* x, double* y) {
-  HWY_DYNAMIC_DISPATCH(chunks_target)(chunks, backward, begin, columns, values, x, y);
+void apply_chunks(int chunks, bool backward, const int* begin, const int* end, const int* columns, const double* values, const double* x,
+                  double* y) {
+  HWY_DYNAMIC_DISPATCH(chunks_target)(chunks, backward, begin, end, columns, values, x, y);
 }
 
 }  // namespace nsframe

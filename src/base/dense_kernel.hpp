@@ -11,7 +11,9 @@ void dense_multiply(const double* A, int rows, int columns, const double* x, dou
 void dense_multiply(const double* A, int rows, int columns, const double* x, const double* x2, double* y, double* y2);
 
 // Chunk after chunk as they are stored, the last rows first where `backward`: y of its four rows = sum over its columns of four values
-// times x[column] (chunked_rows.hpp). x and y may be the same: a chunk then reads what those before it have written.
-void apply_chunks(int chunks, bool backward, const int* begin, const int* columns, const double* values, const double* x, double* y);
+// times x[column], columns counted from its first row (chunked_rows.hpp). x and y may be the same: a chunk then reads what those before it
+// have written.
+void apply_chunks(int chunks, bool backward, const int* begin, const int* end, const int* columns, const double* values, const double* x,
+                  double* y);
 
 }  // namespace nsframe

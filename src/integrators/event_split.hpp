@@ -13,6 +13,7 @@ class EventSplit : public Scheme {
   std::string name() const override { return "event-split"; }
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double h) const override { return method_->mode_response(w, xi, h); }
+  StoredEntries factor_entries() const override { return parts_.matrix.entries(); }
   long factorizations() const override { return method_->factorizations() + parts_.matrix.factorizations() + tangent_.own.matrix.factorizations(); }
   double struck_frequency() const override { return struck_; }
   std::vector<std::string> describe() const override;

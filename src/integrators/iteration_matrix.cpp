@@ -79,6 +79,14 @@ void IterationMatrix::speed_up() {
   solves_ = solves_before_speed_up;
 }
 
+StoredEntries IterationMatrix::entries() const {
+  StoredEntries sum = inverse_.entries();
+  for (const Block& block : blocks_) {
+    if (block.chunked) sum += block.chunked->entries();
+  }
+  return sum;
+}
+
 void IterationMatrix::save(Snapshot& snapshot, const std::string& name) const {
   snapshot.put(name + ".a", a_);
   snapshot.put(name + ".b", b_);
@@ -121,7 +129,7 @@ void IterationMatrix::factor_sparse(Block& block, const SparseMatrix& J, double 
   bool done = false;
   block.chunked.reset();
   if (symmetric_) {
-    using Factor = Eigen::SimplicialLDLT<SparseMatrix>;
+    using Factor = SparseCholesky;
     if (!block.analyzed) {
       block.sparse = std::make_unique<Factor>();
       std::get<std::unique_ptr<Factor>>(block.sparse)->analyzePattern(J);

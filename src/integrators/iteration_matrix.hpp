@@ -28,6 +28,8 @@ class IterationMatrix {
   bool ready(double a, double b) const { return a_ == a && b_ == b; }
   bool ready(double a) const { return ready(a, a * a); }
   long factorizations() const { return factorizations_; }
+  // Of the inverses and factors, as far as they are in the form that solves fastest.
+  StoredEntries entries() const;
 
   // The factors stay in use for many steps: a snapshot holds the stiffness that they were made from.
   void save(Snapshot& snapshot, const std::string& name = "iteration_matrix") const;
@@ -45,8 +47,7 @@ class IterationMatrix {
   void respond(const Contacts& contacts, const std::vector<int>& pairs, const VectorX& p, VectorX& x);
 
  private:
-  using SparseFactor = std::variant<std::unique_ptr<Eigen::SimplicialLDLT<SparseMatrix>>,
-                                    std::unique_ptr<Eigen::SparseLU<SparseMatrix>>>;
+  using SparseFactor = std::variant<std::unique_ptr<SparseCholesky>, std::unique_ptr<Eigen::SparseLU<SparseMatrix>>>;
   struct Block {
     BlockRange range;
     bool dense = true;

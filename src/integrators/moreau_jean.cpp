@@ -71,7 +71,7 @@ void MoreauJean::evaluate(System& system, const State& committed, State& trial, 
   momentum_change_.noalias() = system.mass() * (trial.velocity - committed.velocity);
   free_residual_ = momentum_change_ + h * ((1 - theta) * committed.internal_force + theta * trial.internal_force) - load_;
   if (system.damping.follows_tangent()) system.damping.form_tangent(committed.damping_stiffness, system.assembler.tangent());
-  system.damping.add_force(system.assembler.blocks(), h, mid_velocity_, free_residual_);
+  dissipated_ = system.damping.add_force(system.assembler.blocks(), h, mid_velocity_, free_residual_);
   if (!system.assembler.rate_dependent()) return;
   rate_energy_ = system.assembler.rate_force(committed.history, trial.history, {h, theta}, rate_force_);
   free_residual_ += h * rate_force_;
@@ -286,15 +286,10 @@ void MoreauJean::project(System& system, const State& committed, State& trial, d
 // inertia, internal and contact forces that theta > 1/2 dissipates apart.
 void MoreauJean::report(const System& system, const State& committed, State& trial, double h, StepResult& result) const {
   const Contacts& contacts = system.contacts();
-  const VectorX velocity_change = trial.velocity - committed.velocity;
-  const VectorX displacement_change = h * mid_velocity_;
-  const VectorX force_change = trial.internal_force - committed.internal_force;
-  result.strain = 0.5 * displacement_change.dot(committed.internal_force + trial.internal_force);
+  result.strain = 0.5 * h * mid_velocity_.dot(committed.internal_force + trial.internal_force);
   result.input = load_.dot(mid_velocity_);
-  result.numerical = velocity_change.dot(momentum_change_) + force_change.dot(displacement_change);
-  VectorX damping_force = VectorX::Zero(mid_velocity_.size());
-  system.damping.add_force(system.assembler.blocks(), h, mid_velocity_, damping_force);
-  result.damping = damping_force.dot(mid_velocity_);
+  result.numerical = momentum_change_.dot(trial.velocity - committed.velocity) + h * mid_velocity_.dot(trial.internal_force - committed.internal_force);
+  result.damping = dissipated_;
   result.contact = 0;
   trial.impulse.setZero(contacts.size());
   for (std::size_t k = 0; k < active_.size(); ++k) {

@@ -21,6 +21,7 @@ class MoreauJean : public Scheme {
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double h) const override;
   long factorizations() const override { return matrix_.factorizations(); }
+  StoredEntries factor_entries() const override { return matrix_.entries(); }
   std::vector<Impact> open_contacts(const System& system, const State& state) const override;
   std::vector<std::string> describe() const override { return description_; }
   void save(Snapshot& snapshot) const override;
@@ -67,6 +68,7 @@ class MoreauJean : public Scheme {
   Extrapolation departure_;           // of P(q+) - P(q) - K (q+ - q) with the factored K, step by step [N]
   VectorX rate_force_;                // of rate-dependent elements, at the theta point
   RateEnergy rate_energy_;            // of the step
+  double dissipated_ = 0;             // by damping, in the step [J]
   std::vector<std::string> description_;
   VectorX contact_change_;            // of the velocity, by the impulses; empty without
 };

@@ -32,6 +32,8 @@ ReducedSimulation::ReducedSimulation(const Model& model, const AnalysisOptions& 
 Summary ReducedSimulation::run(const std::vector<Observer*>& observers, const RunControl& control, const std::vector<StageObserver*>& stage_observers) {
   Summary summary = simulation_->run(observers, control, stage_observers, larger_ ? &*larger_ : nullptr);
   summary.dofs = held().dofs.size();
+  StoredEntries entries = simulation_->system().assembler.stiffness_entries();
+  summary.savings.stored_entries = (entries += simulation_->scheme().factor_entries()).stored_share();
   summary.savings.massless_dofs = condensation_.candidates;
   summary.savings.condensed_dofs = condensation_.condensed;
   if (condensation_.condensed > 0) {

@@ -60,6 +60,9 @@ class Scheme {
 
   virtual long factorizations() const = 0;
 
+  // Of the factors that it solves with, where large ones are factored.
+  virtual StoredEntries factor_entries() const { return {}; }
+
   // Whether DOFs without mass are condensed by the scheme itself.
   virtual bool condenses_massless() const { return false; }
 

@@ -345,7 +345,8 @@ std::string summary_json(const Summary& summary) {
         {"factorizations_avoided", summary.savings.factorizations_avoided},
         {"massless_dofs", summary.savings.massless_dofs},
         {"condensed_dofs", summary.savings.condensed_dofs},
-        {"condensed_entries", summary.savings.condensed_entries}}},
+        {"condensed_entries", summary.savings.condensed_entries},
+        {"stored_entries", summary.savings.stored_entries}}},
       {"timing",
        {{"setup", summary.timing.setup}, {"step_loop", summary.timing.step_loop}, {"output", summary.timing.output}}},
       {"warnings", summary.warnings}};

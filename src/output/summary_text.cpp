@@ -263,6 +263,9 @@ void put_savings(Buffer& out, const Summary& summary) {
     line(out, "  kept: {} DOFs without mass, {}", s.massless_dofs,
          summary.stages.empty() ? "since factors and stiffness would have more entries without them" : "since static stages may load them");
   }
+  if (s.stored_entries < 1) {
+    line(out, "  shared: of the entries of factors and stiffness {:.0f} % are stored, the others equal them", 100 * s.stored_entries);
+  }
 }
 
 void put_solution(Buffer& out, const Summary& summary) {
