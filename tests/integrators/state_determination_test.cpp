@@ -133,9 +133,6 @@ TEST_CASE("an evaluation of the remaining elements alone gives the force and tan
   Assembler& assembler = system.assembler;
   assembler.start_step(rest.history, a.history);
   assembler.internal_force(q, rest.history, a.history, carried_force, true, StateDetermination::one_pass);
-  REQUIRE_FALSE(assembler.unsettled());  // so large a change is not left to the next evaluation
-  q *= 1.002;
-  assembler.internal_force(q, rest.history, a.history, carried_force, true, StateDetermination::one_pass);
   REQUIRE(assembler.unsettled());
   b.history = a.history;
   assembler.internal_force(q, rest.history, a.history, force, true, StateDetermination::remaining);
@@ -143,8 +140,9 @@ TEST_CASE("an evaluation of the remaining elements alone gives the force and tan
   const MatrixX tangent = assembler.tangent();
   assembler.internal_force(q, rest.history, b.history, all_force);
   CHECK((force - all_force).norm() < 1e-9 * all_force.norm());
-  CHECK((tangent - MatrixX(assembler.tangent())).norm() < 1e-6 * tangent.norm());
-  CHECK((carried_force - all_force).norm() < 1e-4 * all_force.norm());
+  CHECK((tangent - MatrixX(assembler.tangent())).norm() < 1e-3 * tangent.norm());
+  // at once from rest into yielding: a tenth of that change may be carried, its square is in the force
+  CHECK((carried_force - all_force).norm() < 2e-2 * all_force.norm());
   assembler.start_step(rest.history, b.history);
   assembler.internal_force(q, rest.history, b.history, all_force);
   CHECK((force - all_force).norm() < 1e-6 * all_force.norm());
