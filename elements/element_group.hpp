@@ -51,6 +51,19 @@ struct SectionResult {
   double yielded = 0;             // 1 when a fiber carries plastic strain, else 0
 };
 
+// How elements that iterate for their own balance find their state.
+enum class StateDetermination {
+  iterated,  // until what is left is small
+  one_pass,  // what is left is carried to the next evaluation of the step (theory.md, 385)
+  remaining  // iterated, those alone that the last evaluation of all left with more; at the same displacement
+};
+
+// How an element that iterates for its own balance made its last evaluation.
+struct StateWork {
+  int passes = 0;        // over its sections
+  double unsettled = 0;  // what is out of balance over its tolerance; 0 when settled
+};
+
 class ElementGroup {
  public:
   virtual ~ElementGroup() = default;
@@ -94,6 +107,15 @@ class ElementGroup {
   // ConvergenceError when an element's own iterations fail.
   virtual void respond(int element, const Vector12& displacement, const double* committed, double* trial,
                        Vector12& force, Matrix12* tangent) const = 0;
+
+  // True when elements iterate for their own balance, until what is left is small or, in respond_once(), with one pass: the rest then stays
+  // in `trial` as state_work().unsettled, and the next evaluation of the step starts from there (theory.md, 385). Not for a state to keep.
+  virtual bool iterates() const { return false; }
+  virtual void respond_once(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
+                            Matrix12* tangent) const {
+    respond(element, displacement, committed, trial, force, tangent);
+  }
+  virtual StateWork state_work(int element, const double* history) const { (void)element; (void)history; return {}; }
 
   // Asks for what respond() will read of these histories at first, before their turn comes.
   virtual void prefetch(int element, const double* committed, const double* trial) const { (void)element; (void)committed; (void)trial; }

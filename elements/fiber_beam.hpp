@@ -22,23 +22,12 @@ struct FiberMember {
   SectionOutline outline = {};
   MemberLoad load = {};
   Releases releases = {};
+  bool inner_iterations = false;  // of force-based members: never leave unbalanced sections to the next evaluation
 };
 
 // A member's own history is: head_size() doubles of the kind, then those of the sections, each beginning at a line of cache.
 class FiberBeams : public Members {
  public:
-  explicit FiberBeams(Geometry geometry) : Members(beam_geometry(geometry)) {}
-  void add(const ElementNodes& nodes, std::string id, FiberMember member);
-
-  const MemberLoad* load(int element) const override { return &element_at(element).load; }
-  ElementShape shape(int element) const override;
-  std::vector<FiberPlace> fiber_places(int element) const override;
-  std::vector<FiberState> fiber_states(int element, const Vector12& displacement, const double* history) const override;
-  int fibers(int element) const;
-  int quiet_fibers(int element, const double* history) const override;
-  void prefetch(int element, const double* committed, const double* trial) const override;
-
- protected:
   struct Element : FiberMember {
     double torsion = 0;              // GJ/L over the member [N m]
     std::array<MemberLoad, 3> patterns = {};  // of the dead load
@@ -53,6 +42,19 @@ class FiberBeams : public Members {
       return history + section_begin[static_cast<std::size_t>(point)];
     }
   };
+
+  explicit FiberBeams(Geometry geometry) : Members(beam_geometry(geometry)) {}
+  void add(const ElementNodes& nodes, std::string id, FiberMember member);
+
+  const MemberLoad* load(int element) const override { return &element_at(element).load; }
+  ElementShape shape(int element) const override;
+  std::vector<FiberPlace> fiber_places(int element) const override;
+  std::vector<FiberState> fiber_states(int element, const Vector12& displacement, const double* history) const override;
+  int fibers(int element) const;
+  int quiet_fibers(int element, const double* history) const override;
+  void prefetch(int element, const double* committed, const double* trial) const override;
+
+ protected:
   void initialize_basic(int element, double* history) const override;
   void start_basic(int element, const double* committed, double* trial) const override;
   // Called for every element added.

@@ -33,8 +33,19 @@ void Members::start_step(int element, const double* committed, double* trial) co
   start_basic(element, committed + own, trial + own);
 }
 
-void Members::respond(int element, const Vector12& displacement, const double* committed, double* trial,
-                      Vector12& force, Matrix12* tangent) const {
+void Members::respond(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
+                      Matrix12* tangent) const {
+  respond_by([&](auto&&... arguments) { respond_basic(element, arguments...); }, element, displacement, committed, trial, force, tangent);
+}
+
+void Members::respond_once(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
+                           Matrix12* tangent) const {
+  respond_by([&](auto&&... arguments) { pass_basic(element, arguments...); }, element, displacement, committed, trial, force, tangent);
+}
+
+template <class Basic>
+void Members::respond_by(const Basic& basic, int element, const Vector12& displacement, const double* committed, double* trial,
+                         Vector12& force, Matrix12* tangent) const {
   const BeamFrame& frame = this->frame(element);
   const int own = own_begin(element);
   Acting acting;
@@ -42,8 +53,7 @@ void Members::respond(int element, const Vector12& displacement, const double* c
   Vector6 basic_force;
   Matrix6 basic_tangent;
   const Vector6 deformation = geometry_.deformation(frame, displacement, committed, trial);
-  respond_basic(element, deformation, acting, geometry_.rounding(displacement), committed + own, trial + own, basic_force,
-                tangent ? &basic_tangent : nullptr);
+  basic(deformation, acting, geometry_.rounding(displacement), committed + own, trial + own, basic_force, tangent ? &basic_tangent : nullptr);
   geometry_.to_global(frame, displacement, committed, basic_force, basic_tangent, force, tangent);
   if (!loaded(element)) return;
   geometry_.add_load(frame, *load(element), acting.part, displacement, committed, force, tangent);

@@ -20,6 +20,8 @@ class Members : public ElementGroup {
   void start_step(int element, const double* committed, double* trial) const final;
   void respond(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
                Matrix12* tangent) const final;
+  void respond_once(int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
+                    Matrix12* tangent) const final;
   Matrix12 geometric_change(int element, const Vector12& displacement, const Vector12& step, double load_step,
                             const double* committed, double* trial) const final;
   ElementPose pose(int element, const Vector12& displacement, const double* history) const final;
@@ -41,6 +43,11 @@ class Members : public ElementGroup {
   // Force, and its derivative if `tangent` is not null. `rounding`: of the deformations [m, rad].
   virtual void respond_basic(int element, const Vector6& deformation, const ActingLoad& acting, double rounding,
                              const double* committed, double* trial, Vector6& force, Matrix6* tangent) const = 0;
+  // The same for respond_once().
+  virtual void pass_basic(int element, const Vector6& deformation, const ActingLoad& acting, double rounding, const double* committed,
+                          double* trial, Vector6& force, Matrix6* tangent) const {
+    respond_basic(element, deformation, acting, rounding, committed, trial, force, tangent);
+  }
   virtual std::vector<SectionResult> basic_sections(int element, const Vector6& deformation, const ActingLoad& acting,
                                                     const double* history) const = 0;
   // Of members with dead loads, whose present local axes are the rows of `axes`; to be called after respond_basic(), which left
@@ -76,6 +83,9 @@ class Members : public ElementGroup {
     Matrix3 axes;
     MemberLoad turned;
   };
+  template <class Basic>
+  void respond_by(const Basic& basic, int element, const Vector12& displacement, const double* committed, double* trial, Vector12& force,
+                  Matrix12* tangent) const;
   void find_acting(int element, double part, const Vector12& displacement, const double* committed, Acting& acting) const;
 
   // Of a member in its group's history, and the end of the last one.

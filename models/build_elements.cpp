@@ -239,6 +239,7 @@ void GroupBuilder::add_elastic(const Beam& beam) {
     return;
   }
   if (element.integration.rule != Integration{}.rule) return error(beam, "an elastic beam has no integration points");
+  if (element.inner_iterations) return error(beam, "an elastic beam has no inner_iterations, element = \"force-based\" has");
   if (!element.sections.empty()) return error(beam, "an elastic beam has one section throughout");
   group<ElasticBeams>(fmt::format("elastic {}", static_cast<int>(element.geometry)), element.geometry)
       .add(beam.nodes, beam.id, {beam.frame, section.elastic, section.description->outline, beam.load, element.releases});
@@ -264,7 +265,10 @@ std::vector<const Library::Section*> GroupBuilder::sections_at_points(const Beam
 
 void GroupBuilder::add_fiber(const Beam& beam) {
   const ElementDescription& element = beam.element;
-  FiberMember member{beam.frame, {}, {}, beam.section->description->outline, beam.load, element.releases};
+  if (element.inner_iterations && element.kind == ElementKind::displacement_beam) {
+    return error(beam, "a displacement-based beam has no inner_iterations, element = \"force-based\" has");
+  }
+  FiberMember member{beam.frame, {}, {}, beam.section->description->outline, beam.load, element.releases, element.inner_iterations};
   try {
     member.rule = make_quadrature(element.integration, element.points, beam.frame.length);
   } catch (const std::invalid_argument& problem) {

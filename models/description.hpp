@@ -61,6 +61,7 @@ struct ElementDescription {
   double pretension = 0;               // [N], truss and cable only, positive in tension
   int points = 5;                      // integration points of a fiber beam
   Integration integration;             // fiber beams only
+  bool inner_iterations = false;       // force-based beams only: never carry unbalanced sections from one evaluation to the next
   // Fiber beams only: sections at the integration points, one each, or three (first point, interior, last); `section`
   // then only gives the outline. Empty: `section` throughout.
   std::vector<Reference> sections;

@@ -180,6 +180,15 @@ struct FloorSpectrumPeak {
   double psv = 0, psv_period = 0;             // pseudo-velocity [m/s], [s]
 };
 
+// Of elements that iterate for their own balance (force-based members), sums over their evaluations (theory.md, 385-388).
+struct StateWorkSums {
+  long evaluations = 0;  // of one element each
+  long passes = 0;       // over the sections of an element: an evaluation takes one at least
+  long iterated = 0;     // evaluations with more passes than one
+  long carried = 0;      // evaluations that left the rest to the next one
+  long finished = 0;     // of these, whose rest was iterated on because the step ended there
+};
+
 // What a time history did not have to compute.
 struct Savings {
   int elements_assembled_once = 0;     // linear ones, of Summary::elements
@@ -235,6 +244,7 @@ struct Summary {
   Accumulations accumulations;
   std::vector<std::string> softened_members;      // force-based ones, once more than one state was possible (theory.md, 173)
   Savings savings;
+  StateWorkSums state_work;                       // of force-based members, static stages included
   Timing timing;
   std::vector<std::string> warnings;              // plain sentences
   bool completed = true;

@@ -161,6 +161,7 @@ class Expansion {
     }
     element.points = members.points;
     element.integration = members.integration;
+    element.inner_iterations = members.inner_iterations;
     element.mass = members.mass;
     element.geometry = members.geometry;
     if (members.releases) element.releases = basic_releases(*members.releases);

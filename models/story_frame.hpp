@@ -39,6 +39,7 @@ struct FrameMembers {
   BeamKind element = BeamKind::elastic;
   int points = 5;  // integration points of a fiber beam
   Integration integration;
+  bool inner_iterations = false;  // of force-based beams
   MemberMass mass;
   Geometry geometry = Geometry::linear;
   std::optional<EndReleases> releases;

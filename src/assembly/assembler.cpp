@@ -52,6 +52,7 @@ Assembler::Assembler(const Model& model, int threads) : model_(model), threads_(
       }
       if (const auto* beams = dynamic_cast<const FiberBeams*>(&group)) fibers_ += beams->fibers(e);
       if (group.rate_dependent()) rates_.push_back(nonlinear_.size());
+      if (group.iterates() && !group.linear()) iterating_.push_back(nonlinear_.size());
       (group.linear() ? linear_ : nonlinear_).push_back(std::move(placed));
     }
   }
@@ -199,25 +200,33 @@ VectorX Assembler::member_loads(const VectorX& displacement, const VectorX& hist
 }
 
 void Assembler::internal_force(const VectorX& displacement, const VectorX& committed, VectorX& trial, VectorX& force,
-                               bool with_tangent) {
+                               bool with_tangent, StateDetermination how) {
+  const bool rest = how == StateDetermination::remaining;
   linear_operator_.multiply(displacement, force);
   if (support_force_.size() > 0) force += support_force_;
   if (nonlinear_.empty()) return;
+  if (rest) with_tangent = tangent_is_current_;
   tangent_is_current_ = with_tangent;
   full_displacement_.noalias() = model_.dofs.transformation * displacement;
   if (support_displacement_.size() > 0) full_displacement_ += support_displacement_;
-  const int count = static_cast<int>(nonlinear_.size());
+  const int count = static_cast<int>(rest ? unsettled_.size() : nonlinear_.size());
   parallel_for(count, count < parallel_elements ? 1 : threads_, [&](int i) {
-    const auto at = static_cast<std::size_t>(i);
+    const std::size_t at = rest ? unsettled_[static_cast<std::size_t>(i)] : static_cast<std::size_t>(i);
     const Placed& placed = nonlinear_[at];
-    if (at + prefetched < nonlinear_.size()) {
+    if (!rest && at + prefetched < nonlinear_.size()) {
       const Placed& later = nonlinear_[at + prefetched];
       later.group->prefetch(later.element, committed.data() + later.history_begin, trial.data() + later.history_begin);
     }
     try {
       const Vector12 u = gather(*placed.group, placed.element, full_displacement_);
-      placed.group->respond(placed.element, u, committed.data() + placed.history_begin,
-                            trial.data() + placed.history_begin, forces_[at], with_tangent ? &tangents_[at] : nullptr);
+      const double* const from = committed.data() + placed.history_begin;
+      double* const to = trial.data() + placed.history_begin;
+      Matrix12* const tangent = with_tangent ? &tangents_[at] : nullptr;
+      if (how == StateDetermination::one_pass) {
+        placed.group->respond_once(placed.element, u, from, to, forces_[at], tangent);
+      } else {
+        placed.group->respond(placed.element, u, from, to, forces_[at], tangent);
+      }
     } catch (...) {
       failures_[at] = std::current_exception();
     }
@@ -228,6 +237,7 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
     std::fill(failures_.begin(), failures_.end(), nullptr);
     std::rethrow_exception(first);
   }
+  if (!iterating_.empty()) count_work(trial, rest ? std::vector<std::size_t>(unsettled_) : iterating_, how);
   if (with_tangent) std::copy(linear_values_.begin(), linear_values_.end(), tangent_.valuePtr());
   full_force_.setZero(model_.dofs.full);
   for (std::size_t i = 0; i < nonlinear_.size(); ++i) {
@@ -236,6 +246,20 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
     if (with_tangent) scatter(placed, tangents_[i], tangent_.valuePtr());
   }
   force.noalias() += model_.dofs.transformation_transposed * full_force_;
+}
+
+void Assembler::count_work(const VectorX& trial, const std::vector<std::size_t>& evaluated, StateDetermination how) {
+  unsettled_.clear();
+  for (const std::size_t i : evaluated) {
+    const Placed& placed = nonlinear_[i];
+    const StateWork work = placed.group->state_work(placed.element, trial.data() + placed.history_begin);
+    ++(how == StateDetermination::remaining ? work_.finished : work_.evaluations);
+    work_.passes += work.passes;
+    if (work.passes > 1) ++work_.iterated;
+    if (work.unsettled <= 1) continue;
+    unsettled_.push_back(i);
+    ++work_.carried;
+  }
 }
 
 RateEnergy Assembler::rate_force(const VectorX& committed, VectorX& trial, const StepSpan& step, VectorX& force) {

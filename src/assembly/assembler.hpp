@@ -7,6 +7,7 @@
 
 #include "base/block_operator.hpp"
 #include "models/model.hpp"
+#include "models/results.hpp"
 #include "models/state.hpp"
 
 namespace nsframe {
@@ -41,9 +42,15 @@ class Assembler {
   VectorX member_loads(const VectorX& displacement, const VectorX& history);
 
   // P(q) [N, N m], less the loads on nonlinear members, at `displacement`; writes the trial history, and keeps the tangent
-  // for tangent() where it is wanted: it costs about as much as the force.
-  void internal_force(const VectorX& displacement, const VectorX& committed_history, VectorX& trial_history,
-                      VectorX& force, bool with_tangent = true);
+  // for tangent() where it is wanted: it costs about as much as the force. A state that is to be kept needs its elements iterated: at
+  // once, or in a last call for the `remaining` ones, `with_tangent` as in the call before.
+  void internal_force(const VectorX& displacement, const VectorX& committed_history, VectorX& trial_history, VectorX& force,
+                      bool with_tangent = true, StateDetermination how = StateDetermination::iterated);
+  // The last internal_force() left elements with more out of balance than they tolerate.
+  bool unsettled() const { return !unsettled_.empty(); }
+  // Of elements that iterate for their own balance, since the program began.
+  const StateWorkSums& state_work() const { return work_; }
+  void set_state_work(const StateWorkSums& sums) { work_ = sums; }
   // What moved supports add to every internal_force() from now on: displacements of nodes, for the elements that are evaluated, full
   // DOFs, and the force of the others [N, N m], free DOFs. Empty: nothing.
   void move_supports(const VectorX& displacement, const VectorX& force) {
@@ -85,6 +92,7 @@ class Assembler {
     std::vector<int> position;       // of every entry (column-major, dofs x dofs) in tangent_.valuePtr()
     std::vector<int> local;          // without constraints: the local DOF of every free DOF, and `map` is a selection
   };
+  void count_work(const VectorX& trial, const std::vector<std::size_t>& evaluated, StateDetermination how);
   Placed place(const ElementGroup& group, int element, int history_begin) const;
   void scatter(const Placed& placed, const Matrix12& tangent, double* values) const;
 
@@ -95,6 +103,9 @@ class Assembler {
   std::vector<BlockRange> blocks_;
   std::vector<Placed> linear_, nonlinear_;
   std::vector<std::size_t> rates_;   // of nonlinear_, those with rate-dependent forces
+  std::vector<std::size_t> iterating_;  // of nonlinear_, those that iterate for their own balance
+  std::vector<std::size_t> unsettled_;  // of these, those that the last evaluation left out of balance
+  StateWorkSums work_;
   SparseMatrix tangent_;
   bool tangent_is_current_ = true;
   std::vector<double> rate_values_;

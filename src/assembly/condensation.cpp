@@ -10,6 +10,8 @@ namespace nsframe {
 
 namespace {
 
+constexpr double worthwhile = 0.75;  // part of the entries that may be left: every step also finds all displacements from those that are kept
+
 std::vector<bool> candidates_of(const Model& model) {
   const auto n = static_cast<std::size_t>(model.dofs.size());
   std::vector<bool> may(n, true);
@@ -249,7 +251,7 @@ Condensation find_condensation(const Model& model, int dense_limit) {
     const auto count = std::count(chosen.begin(), chosen.end(), true);
     if (count == 0 || count == size) continue;
     const long after = entries_read(graph.pattern(chosen), dense_limit);
-    if (after > before) continue;
+    if (static_cast<double>(after) > worthwhile * static_cast<double>(before)) continue;
     std::copy(chosen.begin(), chosen.end(), out.begin() + first);
     result.condensed += static_cast<int>(count);
     result.entries_after += after - before;

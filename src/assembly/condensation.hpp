@@ -17,7 +17,7 @@ struct Condensation {
 };
 
 // DOFs are taken out node by node, those that leave the fewest new entries first, while the stiffness does not fill up by that, and
-// only in structures whose factors shrink. Small structures (up to `dense_limit` DOFs), which are solved densely, lose all of them.
+// only in structures whose factors and stiffness lose a quarter of their entries. Small structures (up to `dense_limit` DOFs), which are solved densely, lose all of them.
 Condensation find_condensation(const Model& model, int dense_limit = 160);
 
 }  // namespace nsframe

@@ -57,28 +57,41 @@ Ladder::Ladder(const std::vector<std::string>& choice) {
 
 namespace {
 
+// Iterations after which elements no longer carry what they have out of balance: a step so difficult goes on without.
+constexpr int most_carrying = 10;
+
+// Whether R is small enough, also with all elements in balance.
+bool accepted(NonlinearStep& step, Attempt& attempt) {
+  attempt.error = step.error();
+  if (attempt.error > 1) return false;
+  step.settle();
+  attempt.error = step.error();
+  return attempt.error <= 1;
+}
+
 // One algorithm from the first guess; false when it does not converge.
 bool run(NonlinearStep& step, Algorithm& algorithm, int most, Attempt& attempt) {
   try {
+    step.carry(algorithm.evaluates_once());
     step.restart();
     attempt.error = step.error();
-    if (step.guess_may_stand() && attempt.error <= 1) {
+    if (step.guess_may_stand() && accepted(step, attempt)) {
       attempt.converged = true;
       return true;
     }
     algorithm.start();
     do {
       if (attempt.iterations >= most) return false;
+      if (attempt.iterations == most_carrying) step.carry(false);
       ++attempt.iterations;
       algorithm.iterate(step);
-      attempt.error = step.error();
+      attempt.converged = accepted(step, attempt);
       if (!std::isfinite(attempt.error)) return false;
-    } while (attempt.error > 1);
+    } while (!attempt.converged);
   } catch (const ConvergenceError& problem) {
     attempt.reason = problem.what();
     return false;
   }
-  attempt.converged = true;
   return true;
 }
 

@@ -19,6 +19,8 @@ class Algorithm {
   virtual void iterate(NonlinearStep& step) = 0;
   // How many times the iterations of Newton's method it may take: those with a constant matrix are slower and cheaper.
   virtual int patience() const { return 1; }
+  // Whether it asks for R once only at every x, so that elements may carry what they have out of balance (NonlinearStep::carry).
+  virtual bool evaluates_once() const { return false; }
 };
 
 // Throws InputError for an unknown name.

@@ -52,6 +52,7 @@ class FlightProblem : public NonlinearStep {
   void factor(Tangent which) override;
   void solve(const VectorX& rhs, VectorX& solution) override;
   void move(const VectorX& change) override;
+  void settle() override;
   bool guess_may_stand() const override { return true; }
   bool has_factors() const override { return factors_.own.matrix.ready(factors_.a, factors_.b); }
   double slow_reduction() const override { return 0.005; }
@@ -76,6 +77,7 @@ class FlightProblem : public NonlinearStep {
   const AnalysisOptions& options_;
   const VectorX guess_;
   StepResult& result_;
+  bool settling_ = false;
 };
 
 class FlightMethod {

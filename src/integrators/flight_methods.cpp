@@ -58,6 +58,7 @@ FlightProblem::FlightProblem(const Factors& factors, const AnalysisOptions& opti
     : system_(system), step_(step), end_(end), factors_(factors), options_(options), guess_(std::move(guess)), result_(result) {}
 
 void FlightProblem::restart() {
+  settling_ = false;
   system_.assembler.start_step(step_.committed, step_.trial);
   x = guess_;
   evaluate(false);
@@ -80,9 +81,17 @@ void FlightProblem::move(const VectorX& change) {
   evaluate(false);
 }
 
+void FlightProblem::settle() {
+  if (!system_.assembler.unsettled()) return;
+  settling_ = true;
+  evaluate(false);
+  settling_ = false;
+}
+
 void FlightProblem::members(bool with_tangent) {
-  system_.assembler.internal_force(end_.q, step_.committed, step_.trial, end_.P, with_tangent);
-  ++result_.evaluations;
+  const StateDetermination how = settling_ ? StateDetermination::remaining : determination();
+  system_.assembler.internal_force(end_.q, step_.committed, step_.trial, end_.P, with_tangent, how);
+  if (!settling_) ++result_.evaluations;
 }
 
 void solve_flight(Ladder& ladder, NonlinearStep& problem, const AnalysisOptions& options, const System& system, double time,

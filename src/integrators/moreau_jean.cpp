@@ -62,12 +62,12 @@ void MoreauJean::predict(const System& system, const State& committed, double h,
   update_velocity(system, mid_velocity_, trial, result);
 }
 
-void MoreauJean::evaluate(System& system, const State& committed, State& trial, double h, bool with_tangent) {
+void MoreauJean::evaluate(System& system, const State& committed, State& trial, double h, bool with_tangent, StateDetermination how) {
   const double theta = options_.theta;
   mid_velocity_ = (1 - theta) * committed.velocity + theta * trial.velocity;
   trial.displacement = committed.displacement + h * mid_velocity_;
   system.place_supports(committed.time + h);
-  system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force, with_tangent);
+  system.assembler.internal_force(trial.displacement, committed.history, trial.history, trial.internal_force, with_tangent, how);
   momentum_change_.noalias() = system.mass() * (trial.velocity - committed.velocity);
   free_residual_ = momentum_change_ + h * ((1 - theta) * committed.internal_force + theta * trial.internal_force) - load_;
   if (system.damping.follows_tangent()) system.damping.form_tangent(committed.damping_stiffness, system.assembler.tangent());
@@ -169,7 +169,7 @@ class MoreauJean::Step : public NonlinearStep {
     } else {
       trial_.velocity += h_ * committed_.acceleration;
     }
-    evaluate(system_.damping.follows_tangent());
+    evaluate(system_.damping.follows_tangent(), determination());
     if (predicted_ && !system_.linear()) error_of_guess_ = residual() / (scheme_.options_.theta * h_);
   }
   const VectorX& residual() const override { return scheme_.in_contact() ? scheme_.residual_ : scheme_.free_residual_; }
@@ -178,7 +178,7 @@ class MoreauJean::Step : public NonlinearStep {
   bool solved_at_once() const { return predicted_ && system_.linear(); }
   double error() const override { return result_.residual / scheme_.options_.newton_tolerance; }
   void factor(Tangent which) override {
-    if (which == Tangent::current && !system_.assembler.tangent_is_current()) evaluate(true);
+    if (which == Tangent::current && !system_.assembler.tangent_is_current()) evaluate(true, determination());
     factored_ = true;
     const bool initial = which == Tangent::initial;
     const SparseMatrix& K = initial ? system_.initial_stiffness : system_.assembler.tangent();
@@ -194,7 +194,10 @@ class MoreauJean::Step : public NonlinearStep {
   }
   void move(const VectorX& change) override {
     scheme_.update_velocity(system_, change, trial_, result_);
-    evaluate(system_.damping.follows_tangent());
+    evaluate(system_.damping.follows_tangent(), determination());
+  }
+  void settle() override {
+    if (system_.assembler.unsettled()) evaluate(system_.damping.follows_tangent(), StateDetermination::remaining);
   }
   bool has_factors() const override { return scheme_.matrix_.ready(scheme_.options_.theta * h_); }
   double slow_reduction() const override {
@@ -211,8 +214,8 @@ class MoreauJean::Step : public NonlinearStep {
   }
 
  private:
-  void evaluate(bool with_tangent) {
-    scheme_.evaluate(system_, committed_, trial_, h_, with_tangent);
+  void evaluate(bool with_tangent, StateDetermination how) {
+    scheme_.evaluate(system_, committed_, trial_, h_, with_tangent, how);
     if (scheme_.in_contact()) scheme_.add_impulses(system_);
     result_.residual = residual().norm() / std::max(scheme_.force_scale(trial_, h_), 1e-300);
   }

@@ -33,7 +33,7 @@ class MoreauJean : public Scheme {
   // First guess of the velocity: the step solved with the factored stiffness and the departure from it as extrapolated.
   void predict(const System& system, const State& committed, double h, State& trial, StepResult& result);
   // Internal force at the trial velocity; fills free_residual_ = R without the contact impulses.
-  void evaluate(System& system, const State& committed, State& trial, double h, bool with_tangent);
+  void evaluate(System& system, const State& committed, State& trial, double h, bool with_tangent, StateDetermination how);
   bool in_contact() const { return !active_.empty() || forces_.active(); }
   // Changes the velocity as an algorithm commands, then solves the contact problem on the active pairs.
   void update_velocity(const System& system, const VectorX& change, State& trial, StepResult& result);

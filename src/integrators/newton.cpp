@@ -13,6 +13,7 @@ namespace {
 
 class Newton : public Algorithm {
  public:
+  bool evaluates_once() const override { return true; }
   void start() override { first_ = true; }
   void iterate(NonlinearStep& step) override {
     const double error = step.error();
@@ -35,6 +36,7 @@ class ModifiedNewton : public Algorithm {
  public:
   explicit ModifiedNewton(Tangent which) : which_(which) {}
   int patience() const override { return 5; }
+  bool evaluates_once() const override { return true; }
   void start() override { first_ = true; }
   void iterate(NonlinearStep& step) override {
     if (first_) step.factor(which_);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "base/types.hpp"
+#include "elements/element_group.hpp"
 
 namespace nsframe {
 
@@ -25,9 +26,21 @@ class NonlinearStep {
   // The first guess is one that may solve the step, as if an iteration had been made.
   virtual bool guess_may_stand() const { return false; }
 
+  // Elements that iterate for their own balance may leave what is out of it to the next evaluation, until settle(): for algorithms that
+  // need R at a point once only, since another evaluation there differs by what was left (theory.md, 387).
+  void carry(bool may) { determination_ = may ? StateDetermination::one_pass : StateDetermination::iterated; }
+  // Iterates at x what elements have left, and evaluates R anew; error() before that says nothing final.
+  virtual void settle() {}
+
   // Factors of an earlier step may serve; and the reduction of R by an iteration above which they no longer do.
   virtual bool has_factors() const { return false; }
   virtual double slow_reduction() const { return 0; }
+
+ protected:
+  StateDetermination determination() const { return determination_; }
+
+ private:
+  StateDetermination determination_ = StateDetermination::iterated;
 };
 
 }  // namespace nsframe

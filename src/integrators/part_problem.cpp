@@ -21,13 +21,17 @@ PartProblem::PartProblem(const Tools& tools, double s, const Motion& start, cons
 void PartProblem::restart() {
   tools_.system.assembler.start_step(committed_, trial_);
   x = guess_;
-  evaluate(false);
+  evaluate(false, determination());
 }
 
-void PartProblem::evaluate(bool with_tangent) {
+void PartProblem::settle() {
+  if (tools_.system.assembler.unsettled()) evaluate(false, StateDetermination::remaining);
+}
+
+void PartProblem::evaluate(bool with_tangent, StateDetermination how) {
   System& system = tools_.system;
-  system.assembler.internal_force(reached_ + x, committed_, trial_, P, with_tangent);
-  ++result_.evaluations;
+  system.assembler.internal_force(reached_ + x, committed_, trial_, P, with_tangent, how);
+  if (how != StateDetermination::remaining) ++result_.evaluations;
   residual_ = P - known_;
   residual_.noalias() += (1 / (a_ * a_)) * (system.mass() * x);
   system.damping.add_force(system.assembler.blocks(), 1 / a_, x, residual_);
@@ -39,7 +43,7 @@ void PartProblem::evaluate(bool with_tangent) {
 
 void PartProblem::factor(Tangent which) {
   System& system = tools_.system;
-  if (which == Tangent::current && !system.assembler.tangent_is_current()) evaluate(true);
+  if (which == Tangent::current && !system.assembler.tangent_is_current()) evaluate(true, determination());
   FactoredStiffness& own = tools_.tangent.own;
   own.stiffness = which == Tangent::initial ? system.initial_stiffness : system.assembler.tangent();
   tools_.tangent.in_use = false;
@@ -84,7 +88,7 @@ void PartProblem::solve(const VectorX& rhs, VectorX& solution) {
 
 void PartProblem::move(const VectorX& change) {
   x += change;
-  evaluate(false);
+  evaluate(false, determination());
 }
 
 }  // namespace nsframe

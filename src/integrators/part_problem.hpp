@@ -38,6 +38,7 @@ class PartProblem : public NonlinearStep {
   void factor(Tangent which) override;
   void solve(const VectorX& rhs, VectorX& solution) override;
   void move(const VectorX& change) override;
+  void settle() override;
   bool guess_may_stand() const override { return true; }
   bool has_factors() const override { return true; }
   double slow_reduction() const override { return 0.1; }
@@ -47,7 +48,7 @@ class PartProblem : public NonlinearStep {
   VectorX P;       // at the end of the part
 
  private:
-  void evaluate(bool with_tangent);
+  void evaluate(bool with_tangent, StateDetermination how);
   void solve_at_rest(const VectorX& rhs, VectorX& solution);
 
   const Tools tools_;

@@ -51,7 +51,7 @@ std::vector<std::string> ReducedSimulation::describe() const {
                                 held().dofs.size(), 100.0 * static_cast<double>(condensation_.entries_after) / static_cast<double>(condensation_.entries_before)));
   } else if (condensation_.candidates > 0) {
     lines.push_back(fmt::format("{} DOFs without mass are kept: {}", condensation_.candidates,
-                                model_.stages.empty() ? "condensed, the matrices would have more entries" : "static stages may load them"));
+                                model_.stages.empty() ? "condensed, the matrices would lose less than a quarter of their entries" : "static stages may load them"));
   }
   return lines;
 }

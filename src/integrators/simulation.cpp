@@ -212,6 +212,7 @@ Summary Simulation::run(const std::vector<Observer*>& observers, const RunContro
   std::optional<ExpandedStages> expanded;
   std::vector<StageObserver*> watching = stage_observers;
   if (larger && !stage_observers.empty()) watching = {&expanded.emplace(*larger, stage_observers)};
+  const auto note_state_work = [&] { summary.state_work = system_.assembler.state_work(); };
   const bool arrived = run_stages(stages_.size(), {options_.algorithm, watching, control.stop_requested}, summary.stages);
   summary.softened_members = system_.assembler.softened_members(state_.history);
   if (!arrived || (!stages_.empty() && !(duration() > 0))) {
@@ -221,6 +222,7 @@ Summary Simulation::run(const std::vector<Observer*>& observers, const RunContro
       summary.stop_reason = summary.stages.back().stop_reason;
     }
     summary.timing = {setup_seconds_, stage_clock.seconds(), 0};
+    note_state_work();
     return summary;
   }
   if (system_.damping.follows_tangent()) {
@@ -254,6 +256,7 @@ Summary Simulation::run(const std::vector<Observer*>& observers, const RunContro
   summary.savings = {system_.assembler.linear_elements(),
                      result.quiet_samples > 0 ? result.quiet_fibers / double(result.quiet_samples * system_.assembler.fibers()) : 0,
                      result.guessed_steps, std::max(0L, result.solves - summary.factorizations)};
+  note_state_work();
   summary.completed = result.completed;
   summary.interrupted = result.interrupted;
   summary.stop_reason = result.stop_reason;

@@ -31,7 +31,7 @@ void StaticStep::restart() {
   if (member_loads_) system_.assembler.set_load_factor(*member_loads_, trial_.state.history);
   trial_.state.displacement += first_change_;
   trial_.factor += first_factor_change_;
-  evaluate();
+  evaluate(determination());
   // where members alone are loaded, their clamping forces are all that there is to compare with
   if (member_loads_) tolerance_.least_force = std::max(tolerance_.least_force, trial_.state.internal_force.norm());
   if (row_scale_ > 0) return;
@@ -39,10 +39,14 @@ void StaticStep::restart() {
   residual_[pattern_.size()] = row_scale_ * constraint_.value;
 }
 
-void StaticStep::evaluate() {
+void StaticStep::settle() {
+  if (system_.assembler.unsettled()) evaluate(StateDetermination::remaining);
+}
+
+void StaticStep::evaluate(StateDetermination how) {
   State& state = trial_.state;
   const Eigen::Index n = pattern_.size();
-  system_.assembler.internal_force(state.displacement, committed_->state.history, state.history, state.internal_force);
+  system_.assembler.internal_force(state.displacement, committed_->state.history, state.history, state.internal_force, true, how);
   residual_.resize(n + 1);
   residual_.head(n) = state.internal_force - dead_ - trial_.factor * pattern_;
   constraint_function_(state.displacement, trial_.factor, constraint_);
@@ -94,7 +98,7 @@ void StaticStep::solve(const VectorX& rhs, VectorX& x) {
 void StaticStep::move(const VectorX& change) {
   trial_.state.displacement += change.head(pattern_.size());
   trial_.factor += factor_scale_ * change[pattern_.size()];
-  evaluate();
+  evaluate(determination());
 }
 
 }  // namespace nsframe

@@ -57,10 +57,11 @@ class StaticStep : public NonlinearStep {
   void factor(Tangent which) override;
   void solve(const VectorX& rhs, VectorX& x) override;
   void move(const VectorX& change) override;
+  void settle() override;
   long factorizations() const { return factorizations_; }
 
  private:
-  void evaluate();
+  void evaluate(StateDetermination how);
 
   System& system_;
   VectorX dead_, pattern_;

@@ -49,6 +49,15 @@ void visit_sums(Sums& sums, const Visit& visit) {
   visit("observer_seconds", sums.observer_seconds);
 }
 
+template <class Sums, class Visit>
+void visit_state_work(Sums& sums, const Visit& visit) {
+  visit("evaluations", sums.evaluations);
+  visit("passes", sums.passes);
+  visit("iterated", sums.iterated);
+  visit("carried", sums.carried);
+  visit("finished", sums.finished);
+}
+
 // Numbers that change when the mass, a record or a file of targets does: a scene only names its files.
 std::vector<double> fingerprint(const Model& model) {
   std::vector<double> numbers{model.mass.norm(), model.viscous_damping.norm(), model.gravity_load.norm()};
@@ -291,6 +300,9 @@ void TimeHistory::save(const State& committed) {
   visit_sums(result_, [&](const char* name, auto value) {
     snapshot.put(std::string("time_history.") + name, static_cast<double>(value));
   });
+  visit_state_work(system_.assembler.state_work(), [&](const char* name, long value) {
+    snapshot.put(std::string("state_work.") + name, static_cast<double>(value));
+  });
   for (const Slip& slip : result_.slips) {
     snapshot.put(fmt::format("time_history.slip.{}", slip.pair), std::vector<double>{slip.distance, slip.energy});
   }
@@ -313,6 +325,9 @@ void TimeHistory::restore(State& committed) {
   visit_sums(result_, [&](const char* name, auto& value) {
     value = static_cast<std::remove_reference_t<decltype(value)>>(snapshot.number(std::string("time_history.") + name));
   });
+  StateWorkSums work;
+  visit_state_work(work, [&](const char* name, long& value) { value = static_cast<long>(snapshot.number(std::string("state_work.") + name)); });
+  system_.assembler.set_state_work(work);
   for (Slip& slip : result_.slips) {
     const std::vector<double>& sums = snapshot.array(fmt::format("time_history.slip.{}", slip.pair));
     slip = {slip.pair, sums[0], sums[1]};

@@ -347,6 +347,12 @@ std::string summary_json(const Summary& summary) {
         {"condensed_dofs", summary.savings.condensed_dofs},
         {"condensed_entries", summary.savings.condensed_entries},
         {"stored_entries", summary.savings.stored_entries}}},
+      {"state_determination",
+       {{"evaluations", summary.state_work.evaluations},
+        {"passes", summary.state_work.passes},
+        {"iterated", summary.state_work.iterated},
+        {"carried", summary.state_work.carried},
+        {"finished", summary.state_work.finished}}},
       {"timing",
        {{"setup", summary.timing.setup}, {"step_loop", summary.timing.step_loop}, {"output", summary.timing.output}}},
       {"warnings", summary.warnings}};

@@ -268,6 +268,12 @@ void put_savings(Buffer& out, const Summary& summary) {
   }
 }
 
+void put_state_work(Buffer& out, const StateWorkSums& work) {
+  if (work.evaluations == 0) return;
+  line(out, "  force-based members: {} evaluations in {} passes over their sections, {} iterated; {} iterations saved by carrying what was left",
+       work.evaluations, work.passes, work.iterated, work.carried - work.finished);
+}
+
 void put_solution(Buffer& out, const Summary& summary) {
   line(out, "\nSolution");
   if (!summary.pairs.empty()) {
@@ -282,6 +288,7 @@ void put_solution(Buffer& out, const Summary& summary) {
          summary.steps > 0 ? double(summary.evaluations) / summary.steps : 0.0, summary.rejected_parts);
   }
   put_savings(out, summary);
+  put_state_work(out, summary.state_work);
   put_ladder(out, summary.ladder, "step", summary.laddered_steps);
   const Timing& t = summary.timing;
   line(out, "  wall time: setup {:.3f} s, step loop {:.3f} s ({:.1f} us a step), output {:.3f} s", t.setup, t.step_loop,
@@ -302,6 +309,9 @@ std::string summary_text(const Summary& summary) {
     put_modes(out, summary);
     put_energy(out, summary);
     put_solution(out, summary);
+  } else if (summary.state_work.evaluations > 0) {
+    line(out, "\nSolution");
+    put_state_work(out, summary.state_work);
   }
   if (!summary.warnings.empty()) {
     line(out, "\nWarnings");

@@ -52,6 +52,8 @@ ElementDescription describe(const BeamTable& beam, const ExplicitStructure& stru
   out.sections = beam.sections;
   if (out.kind != ElementKind::elastic_beam) out.integration = structure.integration;
   if (beam.integration) out.integration = *beam.integration;
+  if (out.kind == ElementKind::force_beam) out.inner_iterations = structure.inner_iterations;
+  if (beam.inner_iterations) out.inner_iterations = *beam.inner_iterations;
   if (beam.releases) out.releases = basic_releases(*beam.releases);
   out.mass = beam.mass.value_or(structure.member_mass);
   out.points = beam.points.value_or(structure.points);
@@ -263,6 +265,7 @@ BeamTable beam_table(const ElementDescription& element) {
   out.element = BeamKind::elastic;
   out.points = element.points;
   if (element.integration != Integration{}) out.integration = element.integration;
+  if (element.inner_iterations) out.inner_iterations = true;
   if (element.mass != MemberMass{}) out.mass = element.mass;
   if (element.releases.any()) out.releases = end_releases(element.releases);
   out.geometry = element.geometry;

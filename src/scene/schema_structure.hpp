@@ -38,6 +38,10 @@ constexpr bool is_map(const MassTable*) { return true; }
 inline constexpr std::string_view geometry_text =
     "small displacements, with the axial force on the chord's shift (P-Delta), or displacements and rotations of any size";
 
+inline constexpr std::string_view inner_iterations_text =
+    "true: a force-based beam finds the balance of its sections at every evaluation; false: one pass over them, what is left is carried to the "
+    "next evaluation and found at the end of the step";
+
 template <class Archive>
 void visit(Archive& ar, Integration& i) {
   ar(Field{"rule", "\"lobatto\", \"legendre\", \"radau\" (Gauss), \"hinge-radau\" (plastic hinges at both ends), \"user\""},
@@ -82,6 +86,7 @@ void visit(Archive& ar, BeamTable& b) {
            .default_text = "the structure's"},
      b.points);
   ar(Field{.key = "integration", .text = "of a fiber beam", .default_text = "the structure's"}, b.integration);
+  ar(Field{.key = "inner_iterations", .text = inner_iterations_text, .default_text = "the structure's"}, b.inner_iterations);
   ar(Field{.key = "mass", .text = "the beam's own", .default_text = "the structure's member_mass"}, b.mass);
   ar(Field{"releases", "moments, torsion or axial force that an end doesn't carry"}, b.releases);
   ar(Field{.key = "geometry", .text = geometry_text, .default_text = "the structure's"}, b.geometry);
@@ -287,6 +292,7 @@ void visit(Archive& ar, ExplicitStructure& s) {
   ar(Field{"element", "kind of the beams that don't say"}, s.element);
   ar(Field{"points", "of the beams that don't say", {}, integration_points}, s.points);
   ar(Field{"integration", "of the fiber beams that don't say"}, s.integration);
+  ar(Field{"inner_iterations", "of the force-based beams that don't say"}, s.inner_iterations);
   ar(Field{"member_mass", "of the beams that don't say"}, s.member_mass);
   ar(Field{"geometry", "of the elements that don't say"}, s.geometry);
   ar(Field{"may_move_freely", "a motion without stiffness is intended (a ball, a rolling mass)"}, s.may_move_freely);
@@ -317,6 +323,7 @@ void visit_members(Archive& ar, FrameMembers& m) {
   ar(Field{"element", "kind"}, m.element);
   ar(Field{"points", "integration points of a fiber beam", {}, integration_points}, m.points);
   ar(Field{"integration", "of fiber beams"}, m.integration);
+  ar(Field{"inner_iterations", inner_iterations_text}, m.inner_iterations);
   ar(Field{"mass", "the members' own"}, m.mass);
   ar(Field{"geometry", geometry_text}, m.geometry);
   ar(Field{"releases", "moments, torsion or axial force that an end doesn't carry"}, m.releases);

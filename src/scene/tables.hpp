@@ -64,6 +64,7 @@ struct BeamTable {
   std::optional<BeamKind> element;  // default: the structure's
   std::optional<int> points;
   std::optional<Integration> integration;
+  std::optional<bool> inner_iterations;
   std::optional<MemberMass> mass;
   std::optional<EndReleases> releases;
   std::optional<Geometry> geometry;
@@ -197,6 +198,7 @@ struct ExplicitStructure {
   BeamKind element = BeamKind::elastic;  // defaults of the beams
   int points = ElementDescription{}.points;
   Integration integration;
+  bool inner_iterations = false;
   MemberMass member_mass;
   Geometry geometry = Geometry::linear;
   bool may_move_freely = false;

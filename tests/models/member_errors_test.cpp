@@ -29,6 +29,16 @@ TEST_CASE("integration, sections, loads and mass that a member can't have are er
   e.integration.rule = "legendre";
   CHECK(error_of(d) == "s.toml:5:3: error: element 'a.e1': an elastic beam has no integration points");
   e.integration = {};
+  e.inner_iterations = true;
+  CHECK(error_of(d) == "s.toml:5:3: error: element 'a.e1': an elastic beam has no inner_iterations, element = \"force-based\" has");
+  e.section = {"f", {}};
+  e.kind = ElementKind::displacement_beam;
+  CHECK(error_of(d) == "s.toml:5:3: error: element 'a.e1': a displacement-based beam has no inner_iterations, element = \"force-based\" has");
+  e.kind = ElementKind::force_beam;
+  CHECK(error_of(d) == "no error");
+  e.kind = ElementKind::elastic_beam;
+  e.section = {"c", {}};
+  e.inner_iterations = false;
   e.sections = {{"c", {}}, {"c", {}}, {"c", {}}};
   CHECK(error_of(d) == "s.toml:5:3: error: element 'a.e1': an elastic beam has one section throughout");
   e.kind = ElementKind::force_beam;

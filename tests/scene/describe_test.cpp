@@ -81,6 +81,19 @@ TEST_CASE("integration, mass, releases and sections of a beam are its own or the
   CHECK(e[2].mass.consistent);
 }
 
+TEST_CASE("inner iterations are a beam's own or the structure's, of its force-based beams alone") {
+  const auto e = structure(
+                     "element = \"force-based\"\ninner_iterations = true\n"
+                     "beams = [[1, 1, 2, \"c\"], { id = 2, nodes = [2, 3], section = \"b\", element = \"elastic\" },"
+                     " { id = 3, nodes = [3, 4], section = \"c\", inner_iterations = false }]")
+                     .elements;
+  REQUIRE(e.size() == 3);
+  CHECK(e[0].inner_iterations);
+  CHECK_FALSE(e[1].inner_iterations);
+  CHECK_FALSE(e[2].inner_iterations);
+  CHECK_FALSE(structure("element = \"force-based\"\nbeams = [[1, 1, 2, \"c\"]]").elements[0].inner_iterations);
+}
+
 TEST_CASE("loads on beams are in global axes unless they say local, a force acts at midspan unless it says where") {
   const auto loads = structure(
                          "loads = [[1, [0, 0, \"-5 kN/m\"]], { beams = [1, 2], axes = \"local\", force = [0, \"-2 kN\", 0] },"

@@ -122,6 +122,9 @@ TEST_CASE("what a beam says of its sections, integration, mass, releases and loa
   };
   CHECK(beam("points = 4") == "s.toml:3:10: error: missing key 'section'");
   CHECK(beam("section = \"s\", sections = [\"s\"]") == "s.toml:3:61: error: a beam has either section or sections");
+  CHECK(beam("section = \"s\", inner_iteration = true") ==
+        "s.toml:3:50: error: unknown key 'inner_iteration'; did you mean 'inner_iterations'?");
+  CHECK(beam("section = \"s\", inner_iterations = 20") == "s.toml:3:69: error: inner_iterations must be true or false, not a number");
   CHECK(beam("section = \"s\", integration = \"legendr\"") ==
         "s.toml:3:64: error: there is no integration rule 'legendr'; did you mean 'legendre'?");
   CHECK(beam("section = \"s\", mass = { per_length = 1, density = 2 }") ==

@@ -218,7 +218,7 @@ beams = [
   { id = "b", nodes = ["top", 3], section = "constants", element = "elastic", geometry = "linear", orientation = [0, 1, 1] },
   { id = 3, nodes = [3, 4], section = "fibers", element = "force-based", points = 7, mass = "20 kg/m" },
   { id = 4, nodes = [3, 5], section = "shape", geometry = "corotational", offset_i = ["20 cm", 0, -0.1], offset_j = [-0.2, 0, 0] },
-  { id = "h", nodes = [1, 5], sections = ["shape", "constants", "fibers"], element = "force-based", integration = { rule = "hinge-radau", hinge_i = "30 cm", hinge_j = 0.2 }, releases = { i = ["rx", "ry"], j = ["rz"] }, mass = { per_length = 3, consistent = true } },
+  { id = "h", nodes = [1, 5], sections = ["shape", "constants", "fibers"], element = "force-based", inner_iterations = true, integration = { rule = "hinge-radau", hinge_i = "30 cm", hinge_j = 0.2 }, releases = { i = ["rx", "ry"], j = ["rz"] }, mass = { per_length = 3, consistent = true } },
   { id = "u", nodes = [4, 5], section = "shape", releases = { i = "ux", j = ["ry", "rz"] }, integration = { rule = "user", positions = [0, 0.4, 1], weights = [0.2, 0.5, 0.3] } },
 ]
 loads = [
