@@ -1,5 +1,5 @@
 """Whether the option `accuracy` of the scheme exponential is met: the two-story pair with fiber columns at ten intensities, with and without
-contact, and the reinforced-concrete pair, against runs at a hundredth of the error asked.
+contact, and the reinforced-concrete pair, against runs that ask for a thirtieth of the least error.
 
 Writes bench/results/accuracy_met.md and .json. Standard library only. What the numbers mean: bench/README.md.
 """

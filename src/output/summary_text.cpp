@@ -261,7 +261,7 @@ void put_savings(Buffer& out, const Summary& summary) {
          100 * s.condensed_entries);
   } else if (s.massless_dofs > 0) {
     line(out, "  kept: {} DOFs without mass, {}", s.massless_dofs,
-         summary.stages.empty() ? "since factors and stiffness would have more entries without them" : "since static stages may load them");
+         summary.stages.empty() ? "since factors and stiffness would lose less than a quarter of their entries with them" : "since static stages may load them");
   }
   if (s.stored_entries < 1) {
     line(out, "  shared: of the entries of factors and stiffness {:.0f} % are stored, the others equal them", 100 * s.stored_entries);
