@@ -237,7 +237,12 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
     std::fill(failures_.begin(), failures_.end(), nullptr);
     std::rethrow_exception(first);
   }
-  if (!iterating_.empty()) count_work(trial, rest ? std::vector<std::size_t>(unsettled_) : iterating_, how);
+  if (rest) {
+    const std::vector<std::size_t> evaluated = unsettled_;  // which the count finds anew
+    count_work(trial, evaluated, how);
+  } else if (!iterating_.empty()) {
+    count_work(trial, iterating_, how);
+  }
   if (with_tangent) std::copy(linear_values_.begin(), linear_values_.end(), tangent_.valuePtr());
   full_force_.setZero(model_.dofs.full);
   for (std::size_t i = 0; i < nonlinear_.size(); ++i) {
