@@ -201,10 +201,19 @@ VectorX Assembler::member_loads(const VectorX& displacement, const VectorX& hist
 
 void Assembler::internal_force(const VectorX& displacement, const VectorX& committed, VectorX& trial, VectorX& force,
                                bool with_tangent, StateDetermination how) {
-  const bool rest = how == StateDetermination::remaining;
+  nonlinear_force(displacement, committed, trial, nonlinear_force_, with_tangent, how);
   linear_operator_.multiply(displacement, force);
-  if (support_force_.size() > 0) force += support_force_;
-  if (nonlinear_.empty()) return;
+  force += nonlinear_force_;
+}
+
+void Assembler::nonlinear_force(const VectorX& displacement, const VectorX& committed, VectorX& trial, VectorX& force, bool with_tangent,
+                                StateDetermination how) {
+  if (nonlinear_.empty()) {
+    force.setZero(displacement.size());
+    if (support_force_.size() > 0) force += support_force_;
+    return;
+  }
+  const bool rest = how == StateDetermination::remaining;
   if (rest) with_tangent = tangent_is_current_;
   tangent_is_current_ = with_tangent;
   full_displacement_.noalias() = model_.dofs.transformation * displacement;
@@ -250,7 +259,14 @@ void Assembler::internal_force(const VectorX& displacement, const VectorX& commi
     add_to_nodes(*placed.group, placed.element, forces_[i], full_force_);
     if (with_tangent) scatter(placed, tangents_[i], tangent_.valuePtr());
   }
-  force.noalias() += model_.dofs.transformation_transposed * full_force_;
+  force.noalias() = model_.dofs.transformation_transposed * full_force_;
+  if (support_force_.size() > 0) force += support_force_;
+}
+
+SparseMatrix Assembler::linear_stiffness() const {
+  SparseMatrix stiffness = tangent_;
+  std::copy(linear_values_.begin(), linear_values_.end(), stiffness.valuePtr());
+  return stiffness;
 }
 
 void Assembler::count_work(const VectorX& trial, const std::vector<std::size_t>& evaluated, StateDetermination how) {

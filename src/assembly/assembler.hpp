@@ -46,6 +46,9 @@ class Assembler {
   // once, or in a last call for the `remaining` ones, `with_tangent` as in the call before.
   void internal_force(const VectorX& displacement, const VectorX& committed_history, VectorX& trial_history, VectorX& force,
                       bool with_tangent = true, StateDetermination how = StateDetermination::iterated);
+  // The same force without what linear elements carry; tangent() has them all the same.
+  void nonlinear_force(const VectorX& displacement, const VectorX& committed_history, VectorX& trial_history, VectorX& force, bool with_tangent,
+                       StateDetermination how = StateDetermination::iterated);
   // The last internal_force() left elements with more out of balance than they tolerate.
   bool unsettled() const { return !unsettled_.empty(); }
   // Of elements that iterate for their own balance, since the program began.
@@ -61,6 +64,7 @@ class Assembler {
   const VectorX& evaluated_force() const { return full_force_; }
   // The part of P(q) that linear elements carry.
   void linear_force(const VectorX& displacement, VectorX& force) const { linear_operator_.multiply(displacement, force); }
+  SparseMatrix linear_stiffness() const;  // of linear elements, in the pattern of tangent()
   // dP/dq at the last internal_force() with tangent; same pattern always.
   const SparseMatrix& tangent() const { return tangent_; }
   // That was the last internal_force() of all.
@@ -114,7 +118,7 @@ class Assembler {
   std::vector<Vector12> forces_;
   std::vector<std::exception_ptr> failures_;
   std::vector<Matrix12, Eigen::aligned_allocator<Matrix12>> tangents_;
-  VectorX full_displacement_, full_force_, full_rate_force_;
+  VectorX full_displacement_, full_force_, full_rate_force_, nonlinear_force_;
   VectorX support_displacement_, support_force_;
 };
 

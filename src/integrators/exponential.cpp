@@ -43,7 +43,9 @@ const System& accepted(const System& system) {
 
 Exponential::Exponential(const AnalysisOptions& options, const System& system)
     : options_(options), flow_(options, exact_modes(accepted(system), symmetric_part(system.initial_stiffness))),
-      stiffness_(symmetric_part(system.initial_stiffness), system.assembler.blocks(), dense_block_limit) {
+      stiffness_(symmetric_part(system.initial_stiffness), system.assembler.blocks(), dense_block_limit),
+      nonlinear_stiffness_(SparseMatrix((symmetric_part(system.initial_stiffness) - system.assembler.linear_stiffness()).pruned()),
+                           system.assembler.blocks(), 0) {
   const ExactModes& modes = flow_.modes();
   for (int c = 0; c < modes.pairs(); ++c) {
     if (!modes.compliant[static_cast<std::size_t>(c)]) continue;
@@ -87,25 +89,25 @@ void Exponential::evaluate(System& system, const VectorX& x, const VectorX& mass
   padded_.setZero();
   massless_ = massless;
   system.assembler.start_step(committed, trial);
-  next_.force.resize(modes.dofs);
   next_.massless.setZero(modes.dofs);
   bool tangent = false;
   double last_change = 0;
   for (int i = 0; i < most_rest_evaluations; ++i) {
-    system.assembler.internal_force(displacement_, committed, trial, internal_, tangent);
+    system.assembler.nonlinear_force(displacement_, committed, trial, nonlinear_force_, tangent);
     ++evaluations_;
-    stiffness_.multiply(displacement_, next_.force);
-    next_.force = internal_ - next_.force;
+    nonlinear_stiffness_.multiply(displacement_, next_.force);
+    next_.force = nonlinear_force_ - next_.force;
     project(next_);
     if (modes.massless == 0) return;
-    modes.massless_flexibility.multiply(internal_, follow_);
-    follow_ -= modes.rest;
-    next_.massless = massless_ + follow_;  // F r, as F K leaves what has no mass and takes nothing from the modes
+    modes.massless_flexibility.multiply(next_.force, next_.massless);
+    follow_ = next_.massless - massless_;  // F (P - p): F K leaves what has no mass and takes nothing from the modes
     if (tangent) {
       massless_stiffness_ = N.transpose() * (system.assembler.tangent() * N);
       massless_tangent_.compute(massless_stiffness_);
     }
     if (massless_stiffness_.size() > 0) {
+      stiffness_.multiply(displacement_, internal_);
+      internal_ += next_.force;
       follow_ = N * massless_tangent_.solve(VectorX(N.transpose() * (internal_ - system.static_load)));
     }
     const double change = follow_.cwiseAbs().maxCoeff();
@@ -128,10 +130,8 @@ void Exponential::start(System& system, const State& committed) {
   flow_.set_force({});
   flow_.start(system, committed);
   history_ = committed.history;
-  internal_ = committed.internal_force;
-  now_.force.resize(internal_.size());
   stiffness_.multiply(committed.displacement, now_.force);
-  now_.force = internal_ - now_.force;
+  now_.force = committed.internal_force - now_.force;
   project(now_);
   now_.massless.setZero(modes.dofs);
   if (modes.massless > 0) modes.massless_flexibility.multiply(now_.force, now_.massless);
@@ -262,7 +262,6 @@ void Exponential::restore(System& system, const Snapshot& snapshot) {
   project(now_);
   history_ = system.assembler.virgin_history();
   follow_ = VectorX::Zero(modes.dofs);
-  internal_ = VectorX::Zero(modes.dofs);
 }
 
 std::vector<std::string> Exponential::describe() const {

@@ -48,6 +48,7 @@ class Exponential : public Scheme {
   AnalysisOptions options_;
   EventFlow flow_;
   BlockOperator stiffness_;             // K
+  BlockOperator nonlinear_stiffness_;   // its part of nonlinear elements
   int least_level_ = 0;                 // stable parts of dt: dt / 2^level
   double unstable_ = 0;                 // frequency of the mode that wants least_level_ [rad/s]
   VectorX flexibility_;                 // 1 / w^2 of oscillators [s2]
@@ -66,7 +67,7 @@ class Exponential : public Scheme {
   VectorX last_displacement_, last_velocity_;
   // work space
   Residual next_;
-  VectorX massless_, expected_massless_, follow_, history_, displacement_, internal_, padded_;
+  VectorX massless_, expected_massless_, follow_, history_, displacement_, nonlinear_force_, internal_, padded_;
   ModalForce force_;
   FlowState before_;
   ModalState expected_;

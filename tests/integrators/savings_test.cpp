@@ -16,7 +16,9 @@ ModelDescription steel_pair(double velocity, ElementKind kind = ElementKind::dis
 
 TEST_CASE("forces and histories are the same bits with and without tangents, which stay those of the last call with") {
   for (const ElementKind kind : {ElementKind::displacement_beam, ElementKind::force_beam}) {
-    const Model model = build(steel_pair(0, kind));
+    ModelDescription d = steel_pair(0, kind);
+    d.structures[0].springs = {ground_spring("k", "3", 1e4 * Vector6::Unit(0))};
+    const Model model = build(d);
     Simulation simulation(model, options(1, 1e-3, 1));
     Assembler& assembler = simulation.system().assembler;
     const State& rest = simulation.state();
@@ -32,6 +34,14 @@ TEST_CASE("forces and histories are the same bits with and without tangents, whi
     CHECK(assembler.tangent_is_current());
     CHECK(MatrixX(assembler.tangent()) != virgin);
     CHECK((a.internal_force - b.internal_force).norm() <= 1e-14 * a.internal_force.norm());
+    CHECK((a.history - b.history).norm() <= 1e-14 * a.history.norm());
+    VectorX linear, nonlinear;
+    assembler.linear_force(a.displacement, linear);
+    assembler.start_step(rest.history, b.history);
+    assembler.nonlinear_force(a.displacement, rest.history, b.history, nonlinear, false);
+    CHECK(linear.norm() > 0);
+    CHECK((assembler.linear_stiffness() * a.displacement - linear).norm() <= 1e-13 * linear.norm());
+    CHECK((linear + nonlinear - a.internal_force).norm() <= 1e-14 * a.internal_force.norm());
     CHECK((a.history - b.history).norm() <= 1e-14 * a.history.norm());
   }
 }
