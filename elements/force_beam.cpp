@@ -22,10 +22,15 @@ void ForceBeamsOf<n>::initialize_basic(int element, double* history) const {
 }
 
 template <int n>
-void ForceBeamsOf<n>::answer(int element, double twist, double* trial, Vector6& force, Matrix6* tangent) const {
+void ForceBeamsOf<n>::determine(bool iterate, int element, const Vector6& v, const ActingLoad& acting, double rounding,
+                                const double* committed, double* trial, Vector6& force, Matrix6* tangent) const {
+  State state(element_at(element), acting, rounding, committed, trial);
+  const auto deformation = v.template head<basics>();
+  if (!(iterate ? state.iterate(deformation) : state.pass(deformation)))
+    throw ConvergenceError(fmt::format("force-based element '{}' does not find its section forces", id(element)));
   const ForceHead<n> head(trial);
   if constexpr (n == 3) {
-    with_torsion(element_at(element).torsion, head.force, head.tangent, twist, force, tangent);
+    with_torsion(element_at(element).torsion, head.force, head.tangent, v[5], force, tangent);
   } else {
     force = head.force;
     if (tangent) *tangent = head.tangent;
@@ -33,23 +38,15 @@ void ForceBeamsOf<n>::answer(int element, double twist, double* trial, Vector6& 
 }
 
 template <int n>
-void ForceBeamsOf<n>::fail(int element) const {
-  throw ConvergenceError(fmt::format("force-based element '{}' does not find its section forces", id(element)));
-}
-
-template <int n>
 void ForceBeamsOf<n>::respond_basic(int element, const Vector6& v, const ActingLoad& acting, double rounding, const double* committed,
                                     double* trial, Vector6& force, Matrix6* tangent) const {
-  if (!State(element_at(element), acting, rounding, committed, trial).iterate(v.template head<basics>())) fail(element);
-  answer(element, v[5], trial, force, tangent);
+  determine(true, element, v, acting, rounding, committed, trial, force, tangent);
 }
 
 template <int n>
 void ForceBeamsOf<n>::pass_basic(int element, const Vector6& v, const ActingLoad& acting, double rounding, const double* committed,
                                  double* trial, Vector6& force, Matrix6* tangent) const {
-  if (element_at(element).inner_iterations) return respond_basic(element, v, acting, rounding, committed, trial, force, tangent);
-  if (!State(element_at(element), acting, rounding, committed, trial).pass(v.template head<basics>())) fail(element);
-  answer(element, v[5], trial, force, tangent);
+  determine(element_at(element).inner_iterations, element, v, acting, rounding, committed, trial, force, tangent);
 }
 
 template <int n>

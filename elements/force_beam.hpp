@@ -33,8 +33,9 @@ class ForceBeamsOf : public FiberBeams {
  private:
   using State = ForceState<n>;
   static constexpr int basics = State::basics;
-  void answer(int element, double twist, double* trial, Vector6& force, Matrix6* tangent) const;
-  [[noreturn]] void fail(int element) const;
+  // By iterations until its sections are in balance, or by one pass over them.
+  void determine(bool iterate, int element, const Vector6& v, const ActingLoad& acting, double rounding, const double* committed,
+                 double* trial, Vector6& force, Matrix6* tangent) const;
 };
 
 using ForceBeams = ForceBeamsOf<3>;

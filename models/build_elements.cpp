@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "elements/displacement_beam.hpp"
@@ -179,8 +180,7 @@ void GroupBuilder::add(const ElementDescription& element, const ElementNodes& no
   try {
     axes = beam_axes(end_i, end_j, element.orientation);
   } catch (const std::invalid_argument& problem) {
-    diagnostics_.error(element.at, fmt::format("element '{}': {}", id, problem.what()));
-    return;
+    return error(element.at, "element", id, fmt::format(": {}", problem.what()));
   }
   const BeamFrame frame(end_i, end_j, axes, element.offset);
   if (element.kind == ElementKind::truss || element.kind == ElementKind::cable) {
@@ -204,8 +204,23 @@ void GroupBuilder::add(const ElementDescription& element, const ElementNodes& no
   }
 }
 
-void GroupBuilder::error(const Beam& beam, const std::string& message) {
-  diagnostics_.error(beam.element.at, fmt::format("element '{}': {}", beam.id, message));
+void GroupBuilder::error(const Location& at, std::string_view kind, const std::string& id, const std::string& what) {
+  const auto same = [&](const Fault& told) {
+    return !at.file.empty() && told.at.file == at.file && told.at.line == at.line && told.at.column == at.column && told.what == what;
+  };
+  if (const auto found = std::find_if(faults_.begin(), faults_.end(), same); found != faults_.end()) {
+    ++found->others;
+  } else {
+    faults_.push_back({at, fmt::format("{} '{}'", kind, id), what});
+  }
+}
+
+void GroupBuilder::tell_errors() {
+  for (const Fault& fault : faults_) {
+    const std::string others = fault.others > 0 ? fmt::format(" (and {} more)", fault.others) : "";
+    diagnostics_.error(fault.at, fault.subject + others + fault.what);
+  }
+  faults_.clear();
 }
 
 // The matrix of the member's own mass, and its weight as a load along the member.
@@ -232,11 +247,9 @@ void GroupBuilder::add_elastic(const Beam& beam) {
   const ElementDescription& element = beam.element;
   const Library::Section& section = *beam.section;
   if (!section.is_elastic && couples(*section.fibers)) {
-    diagnostics_.error(element.section.at,
-                       fmt::format("element '{}' is elastic, but the fibers of section '{}' are not centred on their "
-                                   "principal axes; use a fiber element, or give A, Iz, Iy, J",
-                                   beam.id, element.section.name));
-    return;
+    return error(element.section.at, "element", beam.id,
+                 fmt::format(" is elastic, but the fibers of section '{}' are not centred on their principal axes; use a fiber element, "
+                             "or give A, Iz, Iy, J", element.section.name));
   }
   if (element.integration.rule != Integration{}.rule) return error(beam, "an elastic beam has no integration points");
   if (element.inner_iterations) return error(beam, "an elastic beam has no inner_iterations, element = \"force-based\" has");
@@ -287,9 +300,8 @@ void GroupBuilder::add_fiber(const Beam& beam) {
   }
   if (member.sections.empty()) return;
   if (!has_fibers) {
-    diagnostics_.error(element.section.at, fmt::format("element '{}' needs fibers, section '{}' has elastic constants only",
-                                                       beam.id, element.section.name));
-    return;
+    return error(element.section.at, "element", beam.id,
+                 fmt::format(" needs fibers, section '{}' has elastic constants only", element.section.name));
   }
   const std::string key = fmt::format("fiber {} {}", static_cast<int>(element.kind), static_cast<int>(element.geometry));
   if (element.kind == ElementKind::displacement_beam) {
@@ -306,22 +318,20 @@ void GroupBuilder::add_truss(const ElementDescription& element, const ElementNod
   const UniaxialLaw* law = find(library_.materials, element.material, "material", diagnostics_);
   if (!law) return;
   if (frame.has_offsets()) {
-    diagnostics_.error(element.at, fmt::format("element '{}': a {} has no offsets, they would bend it", id,
-                                               element.kind == ElementKind::cable ? "cable" : "truss"));
-    return;
+    return error(element.at, "element", id,
+                 fmt::format(": a {} has no offsets, they would bend it", element.kind == ElementKind::cable ? "cable" : "truss"));
   }
   if (!(element.area > 0)) {
-    diagnostics_.error(element.at, fmt::format("element '{}': the area must be positive", id));
-    return;
+    return error(element.at, "element", id, ": the area must be positive");
   }
   Trusses::Kind kind = is_linear(*law) && element.pretension == 0 ? Trusses::Kind::linear : Trusses::Kind::nonlinear;
   if (is_rate_dependent(*law)) kind = Trusses::Kind::damper;
   if (element.kind == ElementKind::cable) {
     kind = Trusses::Kind::cable;
     if (!is_linear(*law)) {
-      diagnostics_.error(element.material.at, fmt::format("cable '{}' needs an Elastic material; '{}' is not", id, element.material.name));
+      error(element.material.at, "cable", id, fmt::format(" needs an Elastic material; '{}' is not", element.material.name));
     }
-    if (element.pretension < 0) diagnostics_.error(element.at, fmt::format("cable '{}': negative pretension", id));
+    if (element.pretension < 0) error(element.at, "cable", id, ": negative pretension");
   }
   group<Trusses>(fmt::format("truss {} {}", static_cast<int>(kind), static_cast<int>(element.geometry)), kind, element.geometry)
       .add(nodes, id, frame, *law, element.area, element.pretension);
@@ -362,6 +372,7 @@ void GroupBuilder::add(const SpringDescription& spring, const ElementNodes& node
 }
 
 std::vector<std::shared_ptr<const ElementGroup>> GroupBuilder::take() {
+  tell_errors();
   std::vector<std::shared_ptr<const ElementGroup>> taken;
   for (auto& [key, group] : groups_) taken.push_back(std::move(group));
   groups_.clear();

@@ -68,13 +68,22 @@ class GroupBuilder {
   void add_mass(Beam& beam);
   void add_truss(const ElementDescription& element, const ElementNodes& nodes, const BeamFrame& frame, const std::string& id);
   std::vector<const Library::Section*> sections_at_points(const Beam& beam, int points);
-  void error(const Beam& beam, const std::string& message);
+  // Notes "KIND 'ID'WHAT". What the members of one table of a scene have in common is told once, with their number.
+  void error(const Location& at, std::string_view kind, const std::string& id, const std::string& what);
+  void error(const Beam& beam, const std::string& message) { error(beam.element.at, "element", beam.id, ": " + message); }
+  void tell_errors();
 
   const Library& library_;
   Vector3 gravity_;
   Diagnostics& diagnostics_;
   std::vector<std::pair<std::string, std::unique_ptr<ElementGroup>>> groups_;
   std::vector<ElementMass> masses_;
+  struct Fault {
+    Location at;
+    std::string subject, what;
+    int others = 0;
+  };
+  std::vector<Fault> faults_;  // not told yet
 };
 
 template <class Map>

@@ -188,6 +188,15 @@ struct StateWorkSums {
   long carried = 0;      // evaluations that left the rest to the next one
   long finished = 0;     // of these, whose rest was iterated on because the step ended there
 };
+// Calls visit(name, number) for each, by the names of summary.json.
+template <class Sums, class Visit>
+void visit_state_work(Sums& sums, const Visit& visit) {
+  visit("evaluations", sums.evaluations);
+  visit("passes", sums.passes);
+  visit("iterated", sums.iterated);
+  visit("carried", sums.carried);
+  visit("finished", sums.finished);
+}
 
 // What a time history did not have to compute.
 struct Savings {
@@ -198,7 +207,7 @@ struct Savings {
   int massless_dofs = 0;               // that linear elements alone meet, where the scheme does not condense them itself
   int condensed_dofs = 0;              // of these, those that were condensed
   double condensed_entries = 1;        // entries of factors and stiffness that are left, relative to those without
-  double stored_entries = 1;           // entries of factors and stiffness that are kept in memory, relative to those that a step meets: others equal them
+  double stored_entries = 1;           // entries of factors and stiffness in memory, relative to those that a step meets: others equal them
 };
 
 // Where the scheme `exact` ended ever faster impacts (theory.md, 171-172).

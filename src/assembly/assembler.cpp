@@ -1,6 +1,7 @@
 #include "assembly/assembler.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 
 #include "base/parallel.hpp"
@@ -330,6 +331,7 @@ std::string Assembler::worst_element(const VectorX& residual) const {
     if (largest > 0) break;
     for (const Placed& placed : *elements) {
       const double share = gather(*placed.group, placed.element, full).norm();
+      if (!std::isfinite(share)) return placed.group->id(placed.element);
       if (share > largest) {
         largest = share;
         name = placed.group->id(placed.element);

@@ -25,6 +25,13 @@ std::vector<bool> candidates_of(const Model& model) {
     }
     if (model.initial_displacement[j] != 0 || model.initial_velocity[j] != 0) keep(j);
   }
+  for (const StaticStage& stage : model.stages) {
+    for (const VectorX* row : {&stage.pattern, &stage.control_row}) {
+      for (Eigen::Index i = 0; i < row->size(); ++i) {
+        if ((*row)[i] != 0) keep(static_cast<int>(i));
+      }
+    }
+  }
   for (const SparseRows* rows : {&model.contacts.jacobian, &model.contacts.tangents}) {
     for (int c = 0; c < rows->outerSize(); ++c) {
       for (SparseRows::InnerIterator entry(*rows, c); entry; ++entry) keep(static_cast<int>(entry.col()));
@@ -232,8 +239,9 @@ Condensation find_condensation(const Model& model, int dense_limit) {
   Condensation result;
   const std::vector<bool> may = candidates_of(model);
   result.candidates = static_cast<int>(std::count(may.begin(), may.end(), true));
-  // stages may load what statics is to rule
-  if (result.candidates == 0 || !model.stages.empty()) return result;
+  const auto by_arc = [](const StaticStage& stage) { return stage.options.control == "arc-length"; };
+  result.kept_for_arcs = std::any_of(model.stages.begin(), model.stages.end(), by_arc);
+  if (result.candidates == 0 || result.kept_for_arcs) return result;
   const Assembler assembler(model);  // whose tangent has the linear elements only, until it is evaluated
   std::vector<bool> out(may.size(), false);
   for (const Structure& structure : model.structures) {

@@ -48,7 +48,8 @@ DenseMatrix<Real> RankRevealing<Real>::pseudo_inverse() const {
 }
 
 template <class Real>
-SymmetricEigen<Real>::SymmetricEigen(const DenseMatrix<Real>& matrix) {
+SymmetricEigen<Real>::SymmetricEigen(const DenseMatrix<Real>& matrix) : values(matrix.rows()), vectors(matrix.rows(), matrix.cols()) {
+  if (matrix.size() == 0) return;  // Eigen scales by the largest entry
   const Eigen::SelfAdjointEigenSolver<DenseMatrix<Real>> solver(matrix);
   values = solver.eigenvalues();
   vectors = solver.eigenvectors();

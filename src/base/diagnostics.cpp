@@ -15,6 +15,9 @@ void Diagnostics::error(const Location& at, std::string message) {
   if (!at.file.empty()) text += at.file + ":";
   if (at.line > 0) text += fmt::format("{}:{}:", at.line, at.column);
   text += (text.empty() ? "error: " : " error: ") + std::move(message);
+  // one mistake of a file may concern many members
+  const auto same = [&](const Entry& told) { return told.text == text; };
+  if (!at.file.empty() && std::any_of(entries_.begin(), entries_.end(), same)) return;
   entries_.push_back({at, text});
   messages_.push_back(std::move(text));
 }

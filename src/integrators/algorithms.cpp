@@ -107,6 +107,11 @@ bool Ladder::climb(NonlinearStep& step, int max_iterations, std::vector<Attempt>
   return false;
 }
 
+std::string told_residual(double relative, const std::string& worst_element) {
+  if (!std::isfinite(relative)) return fmt::format("(the residual is not finite), first in element '{}'", worst_element);
+  return fmt::format("(relative residual {:.1e}), largest in element '{}'", relative, worst_element);
+}
+
 std::string tried(const std::vector<Attempt>& attempts) {
   std::string text;
   for (const Attempt& attempt : attempts) {

@@ -45,6 +45,9 @@ class Ladder {
   std::vector<Rung> rungs_;
 };
 
+// "(relative residual 1.0e-03), largest in element 's.1'", or that the residual is not finite there.
+std::string told_residual(double relative, const std::string& worst_element);
+
 // "newton (12 iterations), krylov (90 iterations: the stiffness is singular)".
 std::string tried(const std::vector<Attempt>& attempts);
 

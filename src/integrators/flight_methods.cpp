@@ -97,9 +97,9 @@ void FlightProblem::members(bool with_tangent) {
 void solve_flight(Ladder& ladder, NonlinearStep& problem, const AnalysisOptions& options, const System& system, double time,
                   StepResult& result) {
   if (!ladder.climb(problem, options.max_newton, result.attempts)) {
-    throw ConvergenceError(fmt::format("the step at t = {:.6g} s did not converge (relative residual {:.1e}), largest in element '{}'; "
-                                       "tried: {}",
-                                       time, result.residual, system.assembler.worst_element(problem.residual()), tried(result.attempts)));
+    throw ConvergenceError(fmt::format("the step at t = {:.6g} s did not converge {}; tried: {}", time,
+                                       told_residual(result.residual, system.assembler.worst_element(problem.residual())),
+                                       tried(result.attempts)));
   }
   int iterations = 0;
   for (const Attempt& attempt : result.attempts) iterations += attempt.iterations;

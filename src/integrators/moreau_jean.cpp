@@ -144,9 +144,8 @@ double MoreauJean::force_scale(const State& trial, double h) const {
 
 void MoreauJean::fail(const System& system, const State& committed, const StepResult& result) const {
   const bool contact = !active_.empty() && impulse_.size() > 0 && impulse_.maxCoeff() > 0;
-  throw ConvergenceError(fmt::format("the step at t = {:.6g} s did not converge (relative residual {:.1e}), largest in element '{}'{}; "
-                                     "tried: {}",
-                                     committed.time, result.residual, system.assembler.worst_element(free_residual_),
+  throw ConvergenceError(fmt::format("the step at t = {:.6g} s did not converge {}{}; tried: {}", committed.time,
+                                     told_residual(result.residual, system.assembler.worst_element(free_residual_)),
                                      contact ? ", while pair " + system.contacts().pairs[static_cast<std::size_t>(active_[0])].name + " is in contact" : "",
                                      tried(result.attempts)));
 }

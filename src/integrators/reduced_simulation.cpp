@@ -51,7 +51,8 @@ std::vector<std::string> ReducedSimulation::describe() const {
                                 held().dofs.size(), 100.0 * static_cast<double>(condensation_.entries_after) / static_cast<double>(condensation_.entries_before)));
   } else if (condensation_.candidates > 0) {
     lines.push_back(fmt::format("{} DOFs without mass are kept: {}", condensation_.candidates,
-                                model_.stages.empty() ? "condensed, the matrices would lose less than a quarter of their entries" : "static stages may load them"));
+                                condensation_.kept_for_arcs ? "the arc length of static stages counts them"
+                                                            : "condensed, the matrices would lose less than a quarter of their entries"));
   }
   return lines;
 }

@@ -49,9 +49,8 @@ void solve_static(System& system, const VectorX& load, const StaticOptions& opti
     }
     if (++halvings > options.max_halvings) {
       state = committed.state;
-      throw ConvergenceError(fmt::format("static equilibrium not found at {:.4g} of the load (relative residual {:.1e}), "
-                                         "largest in element '{}'{}",
-                                         level, step.relative_residual(), step.worst_element(),
+      throw ConvergenceError(fmt::format("static equilibrium not found at {:.4g} of the load {}{}", level,
+                                         told_residual(step.relative_residual(), step.worst_element()),
                                          attempts.back().reason.empty() ? "" : ": " + attempts.back().reason));
     }
     increment /= 2;

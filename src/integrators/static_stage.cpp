@@ -119,9 +119,8 @@ void StageRun::give_up(const StaticControl& control, const StaticStep& step) {
     result_.stop_reason = fmt::format("stage '{}': {}{}", stage_.name, control.complaint(), where);
     return;
   }
-  result_.stop_reason = fmt::format("stage '{}' cannot go on from load factor {:.6g}{} (relative residual {:.1e}), largest in "
-                                    "element '{}'; tried: {}",
-                                    stage_.name, committed_.factor, where, step.relative_residual(), step.worst_element(), tried(attempts_));
+  result_.stop_reason = fmt::format("stage '{}' cannot go on from load factor {:.6g}{} {}; tried: {}", stage_.name, committed_.factor, where,
+                                    told_residual(step.relative_residual(), step.worst_element()), tried(attempts_));
   if (stage_.options.control == "arc-length") {
     result_.stop_reason += "; where a path snaps back at a kink, displacement control of a DOF that goes on moving there follows it";
   }

@@ -49,15 +49,6 @@ void visit_sums(Sums& sums, const Visit& visit) {
   visit("observer_seconds", sums.observer_seconds);
 }
 
-template <class Sums, class Visit>
-void visit_state_work(Sums& sums, const Visit& visit) {
-  visit("evaluations", sums.evaluations);
-  visit("passes", sums.passes);
-  visit("iterated", sums.iterated);
-  visit("carried", sums.carried);
-  visit("finished", sums.finished);
-}
-
 // Numbers that change when the mass, a record or a file of targets does: a scene only names its files.
 std::vector<double> fingerprint(const Model& model) {
   std::vector<double> numbers{model.mass.norm(), model.viscous_damping.norm(), model.gravity_load.norm()};

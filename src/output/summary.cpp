@@ -58,6 +58,12 @@ OrderedJson friction_json(const Summary& summary) {
   return list;
 }
 
+OrderedJson state_work_json(const StateWorkSums& work) {
+  OrderedJson json = OrderedJson::object();
+  visit_state_work(work, [&json](const char* name, long number) { json[name] = number; });
+  return json;
+}
+
 OrderedJson ladder_json(const std::vector<LadderRecord>& records) {
   OrderedJson list = OrderedJson::array();
   for (const auto& record : records) {
@@ -347,12 +353,7 @@ std::string summary_json(const Summary& summary) {
         {"condensed_dofs", summary.savings.condensed_dofs},
         {"condensed_entries", summary.savings.condensed_entries},
         {"stored_entries", summary.savings.stored_entries}}},
-      {"state_determination",
-       {{"evaluations", summary.state_work.evaluations},
-        {"passes", summary.state_work.passes},
-        {"iterated", summary.state_work.iterated},
-        {"carried", summary.state_work.carried},
-        {"finished", summary.state_work.finished}}},
+      {"state_determination", state_work_json(summary.state_work)},
       {"timing",
        {{"setup", summary.timing.setup}, {"step_loop", summary.timing.step_loop}, {"output", summary.timing.output}}},
       {"warnings", summary.warnings}};

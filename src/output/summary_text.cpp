@@ -260,8 +260,11 @@ void put_savings(Buffer& out, const Summary& summary) {
     line(out, "  condensed: {} of {} DOFs, which have no mass: factors and stiffness keep {:.0f} % of their entries", s.condensed_dofs, summary.dofs,
          100 * s.condensed_entries);
   } else if (s.massless_dofs > 0) {
+    const auto by_arc = [](const StageResult& stage) { return stage.control == "arc-length"; };
     line(out, "  kept: {} DOFs without mass, {}", s.massless_dofs,
-         summary.stages.empty() ? "since factors and stiffness would lose less than a quarter of their entries with them" : "since static stages may load them");
+         std::any_of(summary.stages.begin(), summary.stages.end(), by_arc)
+             ? "since the arc length of static stages counts them"
+             : "since factors and stiffness would lose less than a quarter of their entries with them");
   }
   if (s.stored_entries < 1) {
     line(out, "  shared: of the entries of factors and stiffness {:.0f} % are stored, the others equal them", 100 * s.stored_entries);

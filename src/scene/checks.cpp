@@ -31,6 +31,27 @@ void check(TableReader& table, const BeamTable& beam) {
   if (!beam.section.name.empty() && !beam.sections.empty()) table.error("sections", "a beam has either section or sections");
 }
 
+void check(TableReader& table, const WallTable& wall) {
+  if (wall.nodes.size() < 2) return table.error("nodes", "a wall has two nodes on its axis, or more");
+  if (std::abs(wall.direction.vector.z()) > 1e-9) table.error("direction", "the direction of a wall's length is horizontal");
+  const auto check_list = [&](const char* key, std::size_t size) {
+    if (const std::size_t stories = wall.nodes.size() - 1; size > 1 && size != stories)
+      table.error(key, fmt::format("{} has {} values, must have one, or one a story ({})", key, size, stories));
+  };
+  check_list("thickness", wall.thickness.size());
+  check_list("section", wall.section.size());
+  if (wall.section.empty() && (wall.thickness.empty() || !wall.E)) table.error("section", "a wall needs thickness and E, or section");
+  if (wall.section.empty()) {
+    if (wall.element && *wall.element != BeamKind::elastic)
+      table.error("element", "a wall by thickness and E is elastic; give the section of another one");
+    for (const char* key : {"points", "integration", "inner_iterations"})
+      if (table.has(key)) table.error(key, fmt::format("a wall by thickness and E is elastic and has no {}", key));
+    return;
+  }
+  for (const char* key : {"thickness", "E", "poisson"})
+    if (table.has(key)) table.error(key, fmt::format("a wall has either {} or section", key));
+}
+
 void check(TableReader& table, const Integration& integration) {
   const std::vector<std::string> rules = integration_rules();
   if (std::find(rules.begin(), rules.end(), integration.rule) == rules.end())
@@ -118,6 +139,13 @@ void check(TableReader& table, const DampingTable& damping) {
       if (damping.mass_factor != 0 || damping.stiffness_factor != 0)
         table.error("frequencies", "rayleigh damping has either factors or frequencies");
   }
+}
+
+void check(TableReader& table, const ExplicitStructure& structure) {
+  if (structure.walls.empty()) return;
+  const StructureDescription without = describe_nodes(structure);
+  for (const WallTable& wall : structure.walls)
+    for (const auto& [what, message] : faults(describe(wall, structure), without)) table.error(what, message);
 }
 
 void check(TableReader& table, const CalibrationParameterTable& parameter) {

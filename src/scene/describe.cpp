@@ -1,5 +1,7 @@
 #include "scene/describe.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -125,6 +127,22 @@ void fill_restitution(ContactTable& contact) {
   if (contact.restitution.values.empty() && !elastic && !contact.law.damping_ratio) contact.restitution.values = {ContactDescription{}.restitution};
 }
 
+// The outline of a wall's section must be that of the wall: depth and width are easily exchanged.
+void check_walls(const ExplicitStructure& structure, const std::vector<SectionDescription>& sections, Diagnostics& diagnostics) {
+  constexpr double rounding = 0.01;  // of the length
+  for (const WallTable& wall : structure.walls) {
+    for (const Reference& name : wall.section) {
+      const auto found = std::find_if(sections.begin(), sections.end(), [&](const auto& section) { return section.name == name.name; });
+      if (found == sections.end() || found->outline.empty() || found->faulty) continue;
+      const auto [least, most] = std::minmax_element(found->outline.begin(), found->outline.end(),
+                                                     [](const Vector2& a, const Vector2& b) { return a.x() < b.x(); });
+      if (const double depth = most->x() - least->x(); std::abs(depth - wall.length) > rounding * wall.length)
+        diagnostics.error(name.at, fmt::format("section '{}' is {:.4g} m deep (local y), wall '{}' is {:.4g} m long", name.name, depth,
+                                               wall.id.name, wall.length));
+    }
+  }
+}
+
 }  // namespace
 
 void describe_model(Scene& scene, Diagnostics& diagnostics) {
@@ -138,6 +156,12 @@ void describe_model(Scene& scene, Diagnostics& diagnostics) {
   }
   resolve_in_place(model.materials, diagnostics);
   for (const SectionTable& s : scene.tables.sections) model.sections.push_back(describe(s, model.materials));
+  for (const StructureTable& structure : scene.tables.structures) {
+    const auto* s = std::get_if<ExplicitStructure>(&structure);
+    if (!s) continue;
+    for (SectionDescription& own : own_sections(*s)) model.sections.push_back(std::move(own));
+    check_walls(*s, model.sections, diagnostics);
+  }
   for (const StructureTable& structure : scene.tables.structures) {
     if (const auto* frame = std::get_if<StoryFrameTable>(&structure); frame && !faults(frame->frame).empty()) {
       // Reported where it was read; the name stays known to contacts.

@@ -7,6 +7,7 @@
 
 #include "base/diagnostics.hpp"
 #include "models/materials.hpp"
+#include "models/wall.hpp"
 #include "scene/scene.hpp"
 #include "scene/tables.hpp"
 
@@ -19,8 +20,12 @@ void describe_model(Scene& scene, Diagnostics& diagnostics);
 SectionDescription describe(const SectionTable& section, const std::vector<MaterialDescription>& materials);
 StructureDescription describe(const ExplicitStructure& structure);
 StructureDescription describe(const StoryFrameTable& frame);
-// Laws of its own that the structure's elements name: of struts.
+Wall describe(const WallTable& wall, const ExplicitStructure& structure);
+// Name and nodes only.
+StructureDescription describe_nodes(const ExplicitStructure& structure);
+// Laws and sections of its own that the structure's elements name: of struts, and of walls by thickness.
 std::vector<MaterialDescription> own_materials(const ExplicitStructure& structure);
+std::vector<SectionDescription> own_sections(const ExplicitStructure& structure);
 DampingDescription describe(const DampingTable& damping);
 // One for two neighbours of a row of structures.
 std::vector<ContactDescription> describe(const ContactTable& contact);

@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "elements/infill.hpp"
 #include "scene/describe.hpp"
+#include "scene/sections/section_kind.hpp"
 
 namespace nsframe {
 
@@ -41,23 +44,29 @@ LoadTable load_table(const LoadDescription& load) {
           components(load.force), load.position};
 }
 
-ElementDescription describe(const BeamTable& beam, const ExplicitStructure& structure) {
+// With the structure's defaults.
+ElementDescription describe_member(const Reference& id, const MemberKeys& member, const ExplicitStructure& structure) {
   ElementDescription out;
-  out.id = beam.id.name;
-  out.at = beam.id.at;
-  out.kind = element_kind(beam.element.value_or(structure.element));
+  out.id = id.name;
+  out.at = id.at;
+  out.kind = element_kind(member.element.value_or(structure.element));
+  if (out.kind != ElementKind::elastic_beam) out.integration = structure.integration;
+  if (member.integration) out.integration = *member.integration;
+  if (out.kind == ElementKind::force_beam) out.inner_iterations = structure.inner_iterations;
+  if (member.inner_iterations) out.inner_iterations = *member.inner_iterations;
+  out.mass = member.mass.value_or(structure.member_mass);
+  out.points = member.points.value_or(structure.points);
+  out.geometry = member.geometry.value_or(structure.geometry);
+  return out;
+}
+
+ElementDescription describe(const BeamTable& beam, const ExplicitStructure& structure) {
+  ElementDescription out = describe_member(beam.id, beam, structure);
   out.node_i = at_or_empty(beam.nodes, 0);
   out.node_j = at_or_empty(beam.nodes, 1);
   out.section = beam.sections.empty() ? beam.section : beam.sections[beam.sections.size() / 2];
   out.sections = beam.sections;
-  if (out.kind != ElementKind::elastic_beam) out.integration = structure.integration;
-  if (beam.integration) out.integration = *beam.integration;
-  if (out.kind == ElementKind::force_beam) out.inner_iterations = structure.inner_iterations;
-  if (beam.inner_iterations) out.inner_iterations = *beam.inner_iterations;
   if (beam.releases) out.releases = basic_releases(*beam.releases);
-  out.mass = beam.mass.value_or(structure.member_mass);
-  out.points = beam.points.value_or(structure.points);
-  out.geometry = beam.geometry.value_or(structure.geometry);
   if (beam.orientation)
     out.orientation = Vector3((*beam.orientation)[0], (*beam.orientation)[1], (*beam.orientation)[2]);
   out.offset = {beam.offset_i.value_or(Vector3::Zero()), beam.offset_j.value_or(Vector3::Zero())};
@@ -106,6 +115,11 @@ SpringDescription describe(const LinkTable& link) {
   out.shear_distance = Vector2(link.shear_distance[0], link.shear_distance[1]);
   out.p_delta = link.p_delta;
   return out;
+}
+
+// The section of a wall by thickness in a story, from 1: no other can have a name with a dot.
+Reference wall_section_name(const WallTable& wall, const ExplicitStructure& structure, std::size_t story) {
+  return {fmt::format("{}.{}-{}", structure.name, wall.id.name, story), wall.id.at};
 }
 
 // The material of a strut: no other can have a name with a dot.
@@ -229,15 +243,50 @@ std::vector<MaterialDescription> own_materials(const ExplicitStructure& structur
   return out;
 }
 
-StructureDescription describe(const ExplicitStructure& structure) {
+Wall describe(const WallTable& wall, const ExplicitStructure& structure) {
+  Wall out;
+  ExplicitStructure defaults;
+  defaults.member_mass = structure.member_mass;
+  defaults.geometry = structure.geometry;
+  out.member = describe_member(wall.id, wall, wall.section.empty() ? defaults : structure);
+  out.nodes = wall.nodes;
+  out.section = wall.section;
+  for (std::size_t story = 1; story <= wall.thickness.size(); ++story) out.section.push_back(wall_section_name(wall, structure, story));
+  out.direction = wall.direction.vector;
+  out.length = wall.length;
+  if (!wall.thickness.empty()) out.width = *std::max_element(wall.thickness.begin(), wall.thickness.end());
+  out.attached = wall.attached;
+  return out;
+}
+
+std::vector<SectionDescription> own_sections(const ExplicitStructure& structure) {
+  std::vector<SectionDescription> out;
+  for (const WallTable& wall : structure.walls) {
+    for (std::size_t story = 1; story <= wall.thickness.size(); ++story) {
+      const double y = wall.length / 2, z = wall.thickness[story - 1] / 2;
+      out.push_back({wall_section_name(wall, structure, story).name, wall.id.at,
+                     wall_section(2 * y, 2 * z, wall.E.value_or(0), wall.poisson.value_or(0.2)),
+                     rectangle_outline({{-y, y}, {-z, z}})});
+    }
+  }
+  return out;
+}
+
+StructureDescription describe_nodes(const ExplicitStructure& structure) {
   StructureDescription out;
   out.name = structure.name;
   out.at = structure.at;
-  out.may_move_freely = structure.may_move_freely;
   for (const NodeTable& n : structure.nodes) out.nodes.push_back({n.id.name, n.id.at, Vector3(n.x, n.y, n.z)});
+  return out;
+}
+
+StructureDescription describe(const ExplicitStructure& structure) {
+  StructureDescription out = describe_nodes(structure);
+  out.may_move_freely = structure.may_move_freely;
   for (const SupportTable& s : structure.supports) out.supports.push_back({s.node, s.fixed.dofs});
   for (const MassTable& m : structure.masses) out.masses.push_back({m.node, vector3(m.mass), vector3(m.inertia)});
   for (const BeamTable& beam : structure.beams) out.elements.push_back(describe(beam, structure));
+  for (const WallTable& wall : structure.walls) expand(describe(wall, structure), out);
   for (const BarTable& bar : structure.trusses) out.elements.push_back(describe(bar, BarKind::truss, structure));
   for (const BarTable& bar : structure.cables) out.elements.push_back(describe(bar, BarKind::cable, structure));
   for (const InfillTable& infill : structure.infills) out.elements.push_back(describe(infill, structure));

@@ -73,6 +73,7 @@ constexpr std::string_view title_of(const NodeTable*) { return "a node"; }
 constexpr std::string_view title_of(const SupportTable*) { return "a support"; }
 constexpr std::string_view title_of(const MassTable*) { return "a mass"; }
 constexpr std::string_view title_of(const BeamTable*) { return "a beam"; }
+constexpr std::string_view title_of(const WallTable*) { return "a wall"; }
 constexpr std::string_view title_of(const BarTable*) { return "a truss or cable"; }
 constexpr std::string_view title_of(const InfillTable*) { return "an infill"; }
 constexpr std::string_view title_of(const SpringTable*) { return "a spring"; }

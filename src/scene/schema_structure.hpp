@@ -71,6 +71,20 @@ void visit(Archive& ar, EndReleases& r) {
 }
 
 template <class Archive>
+void visit_member_keys(Archive& ar, MemberKeys& m) {
+  ar(Field{.key = "element", .text = "elastic or fiber beam-column", .default_text = "the structure's"}, m.element);
+  ar(Field{.key = "points",
+           .text = "integration points of a fiber beam",
+           .range = integration_points,
+           .default_text = "the structure's"},
+     m.points);
+  ar(Field{.key = "integration", .text = "of a fiber beam", .default_text = "the structure's"}, m.integration);
+  ar(Field{.key = "inner_iterations", .text = inner_iterations_text, .default_text = "the structure's"}, m.inner_iterations);
+  ar(Field{.key = "mass", .text = "the beam's own", .default_text = "the structure's member_mass"}, m.mass);
+  ar(Field{.key = "geometry", .text = geometry_text, .default_text = "the structure's"}, m.geometry);
+}
+
+template <class Archive>
 void visit(Archive& ar, BeamTable& b) {
   ar(required("id", "unique among the structure's elements"), b.id);
   ar(required("nodes", "from, to"), b.nodes);
@@ -79,17 +93,8 @@ void visit(Archive& ar, BeamTable& b) {
            "of a fiber beam, in place of `section`: at the first integration point, the interior ones, the last; or one a "
            "point"},
      b.sections);
-  ar(Field{.key = "element", .text = "elastic or fiber beam-column", .default_text = "the structure's"}, b.element);
-  ar(Field{.key = "points",
-           .text = "integration points of a fiber beam",
-           .range = integration_points,
-           .default_text = "the structure's"},
-     b.points);
-  ar(Field{.key = "integration", .text = "of a fiber beam", .default_text = "the structure's"}, b.integration);
-  ar(Field{.key = "inner_iterations", .text = inner_iterations_text, .default_text = "the structure's"}, b.inner_iterations);
-  ar(Field{.key = "mass", .text = "the beam's own", .default_text = "the structure's member_mass"}, b.mass);
+  visit_member_keys(ar, b);
   ar(Field{"releases", "moments, torsion or axial force that an end doesn't carry"}, b.releases);
-  ar(Field{.key = "geometry", .text = geometry_text, .default_text = "the structure's"}, b.geometry);
   ar(Field{.key = "orientation",
            .text = "vector in the local x-z plane",
            .default_text = "local y along global X in vertical members, upwards in others"},
@@ -107,6 +112,38 @@ void visit(Archive& ar, BeamTable& b) {
 }
 inline constexpr std::string_view beam_row[]{"id", "nodes", "nodes", "section"};
 constexpr RowKeys row_keys(const BeamTable*) { return beam_row; }
+
+template <class Archive>
+void visit(Archive& ar, WallTable& w) {
+  ar(required("id", "unique among the structure's elements; the beam-column of story k, from the foot, is `ID-k`"), w.id);
+  ar(required("nodes",
+              "on the axis, from the foot upwards; the edges at node 11 are the nodes `\"11-\"` and `\"11+\"`, against and along `direction`"),
+     w.nodes);
+  ar(Field{"direction", "of the length, horizontal"}, w.direction);
+  ar(required("length", "from edge to edge", dimension::length, range::positive), w.length);
+  ar(Field{.key = "thickness",
+           .text = "of an elastic wall of solid rectangles, with shear areas of 5/6; one, or one a story",
+           .dimension = dimension::length,
+           .range = range::positive,
+           .default_text = "**required**, or `section`"},
+     w.thickness);
+  ar(Field{.key = "E", .text = "its elastic modulus", .dimension = dimension::stress, .range = range::positive,
+           .default_text = "**required**, or `section`"},
+     w.E);
+  ar(Field{.key = "poisson",
+           .text = "its Poisson's ratio, for G = E/(2(1 + poisson))",
+           .range = {-1, 0.5, true, false},
+           .default_text = "0.2"},
+     w.poisson);
+  ar(Field{.key = "section",
+           .text = "of the whole wall, its depth (local y) along `direction`, in place of thickness and E; one, or one a story. Fibers "
+                   "alone are rigid in shear: give shear_y_law, in a force-based wall",
+           .default_text = "a rectangle"},
+     w.section);
+  ar(Field{"attached", "further nodes, within the wall at levels of its nodes, that follow the axis by rigid arms as the edges do"},
+     w.attached);
+  visit_member_keys(ar, w);
+}
 
 template <class Archive>
 void visit(Archive& ar, LoadTable& l) {
@@ -300,6 +337,7 @@ void visit(Archive& ar, ExplicitStructure& s) {
   ar(Field{"supports", "fixed DOFs"}, s.supports);
   ar(Field{"masses", "lumped masses"}, s.masses);
   ar(Field{"beams", "beam-columns"}, s.beams);
+  ar(Field{"walls", "walls as wide columns: beam-columns along the axis, rigid arms to the edges, where beams start"}, s.walls);
   ar(Field{"trusses", "bars in tension and compression"}, s.trusses);
   ar(Field{"cables", "bars in tension only"}, s.cables);
   ar(Field{"infills", "masonry panels as struts in compression only, of the width of FEMA 356 (7-14)"}, s.infills);

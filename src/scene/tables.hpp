@@ -56,20 +56,37 @@ struct MassTable {
   std::vector<double> inertia;  // [kg m2], none or three
 };
 
-struct BeamTable {
-  Reference id;
-  std::vector<Reference> nodes;
-  Reference section;
-  std::vector<Reference> sections;  // in place of `section`
-  std::optional<BeamKind> element;  // default: the structure's
+// What beams and walls say of their elements; default: the structure's.
+struct MemberKeys {
+  std::optional<BeamKind> element;
   std::optional<int> points;
   std::optional<Integration> integration;
   std::optional<bool> inner_iterations;
   std::optional<MemberMass> mass;
-  std::optional<EndReleases> releases;
   std::optional<Geometry> geometry;
+};
+
+struct BeamTable : MemberKeys {
+  Reference id;
+  std::vector<Reference> nodes;
+  Reference section;
+  std::vector<Reference> sections;  // in place of `section`
+  std::optional<EndReleases> releases;
   std::optional<std::array<double, 3>> orientation;
   std::optional<Vector3> offset_i, offset_j;  // [m]
+};
+
+// A wide column (models/wall.hpp).
+struct WallTable : MemberKeys {
+  Reference id;
+  std::vector<Reference> nodes;
+  Direction direction;
+  double length = 0;                 // [m]
+  std::vector<double> thickness;     // [m] one, or one a story; with E, in place of `section`
+  std::optional<double> E;           // [Pa]
+  std::optional<double> poisson;
+  std::vector<Reference> section;    // one, or one a story
+  std::vector<Reference> attached;
 };
 
 enum class LoadAxes { global, local };
@@ -206,6 +223,7 @@ struct ExplicitStructure {
   std::vector<SupportTable> supports;
   std::vector<MassTable> masses;
   std::vector<BeamTable> beams;
+  std::vector<WallTable> walls;
   std::vector<BarTable> trusses, cables;
   std::vector<InfillTable> infills;
   std::vector<SpringTable> springs;

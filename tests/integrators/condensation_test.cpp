@@ -1,6 +1,8 @@
 // Static condensation of DOFs without mass: the same results as without, what it cures, and what it must leave alone.
 #include <doctest/doctest.h>
 
+#include <functional>
+
 #include "integrators/reduced_simulation.hpp"
 #include "tests/integrators/oscillators.hpp"
 
@@ -52,18 +54,29 @@ ModelDescription portals(int count, double heavier = 40) {
 struct Both {
   Summary with, without;
   std::vector<State> condensed, kept;
+  std::vector<VectorX> condensed_stages, kept_stages;  // displacements at every point
+};
+
+class StageRecorder : public StageObserver {
+ public:
+  explicit StageRecorder(std::vector<VectorX>& displacements) : displacements_(displacements) {}
+  void start(const Model& model, const StaticStage&, const State& state) override { CHECK(state.displacement.size() == model.dofs.size()); }
+  void point(const StagePoint&, const State& state) override { displacements_.push_back(state.displacement); }
+  void finish(const StageResult&) override {}
+
+ private:
+  std::vector<VectorX>& displacements_;
 };
 
 Both run_both(const ModelDescription& d, const AnalysisOptions& o) {
   const Model model = build(d);
   Both both;
-  Recorder recorder;
-  ReducedSimulation reduced(model, o);
-  both.with = reduced.run({&recorder});
-  both.condensed = std::move(recorder.states);
-  Run whole = run(d, o);
-  both.without = std::move(whole.summary);
-  both.kept = std::move(whole.states);
+  Recorder condensed, kept;
+  StageRecorder condensed_stages(both.condensed_stages), kept_stages(both.kept_stages);
+  both.with = ReducedSimulation(model, o).run({&condensed}, {}, {&condensed_stages});
+  both.condensed = std::move(condensed.states);
+  both.without = Simulation(model, o).run({&kept}, {}, {&kept_stages});
+  both.kept = std::move(kept.states);
   REQUIRE(both.with.completed);
   REQUIRE(both.condensed.size() == both.kept.size());
   return both;
@@ -115,6 +128,81 @@ TEST_CASE("condensed DOFs without mass move from rest as those that are kept") {
       CHECK(both.with.worst_balance_error < 1e-10);
     }
   }
+}
+
+namespace {
+
+// The portals with a yielding brace at the first head, pushed there and at another head before the motion.
+ModelDescription pushed_portals(int count) {
+  ModelDescription d = portals(count);
+  d.materials = {{"steel", {}, Steel01{4e3, 4e5, 0.1}}};
+  SpringDescription brace = ground_spring("brace", "lh0", Vector6::Zero());
+  brace.law[0] = Reference{"steel", {}};
+  d.structures[0].springs = {brace};
+  StageDescription push;
+  push.name = "push";
+  push.loads = {{{"a.lh0", {}}, 0, 2e3}, {{"a.rh0", {}}, 1, 500}};
+  push.options.targets = {1};
+  push.options.steps = 4;
+  push.options.tolerance = 1e-13;
+  StageDescription pull = push;
+  pull.name = "pull";
+  pull.options.control = "displacement";
+  pull.control_node = Reference{"a.lh0", {}};
+  pull.options.targets = {-0.03, 0.02};
+  pull.options.step = 0.005;
+  d.stages = {push, pull};
+  return d;
+}
+
+}  // namespace
+
+TEST_CASE("condensed DOFs go through static stages as those that are kept, and on from there") {
+  for (const int count : {1, 20}) {
+    CAPTURE(count);
+    const ModelDescription d = pushed_portals(count);
+    AnalysisOptions o = options(1, 0.005, 0.3);
+    o.newton_tolerance = 1e-13;
+    const Both both = run_both(d, o);
+    CHECK(both.with.savings.massless_dofs == 2 * count * 9 - 3);  // the brace's node keeps its rotations
+    CHECK(both.with.savings.condensed_dofs > count * 12 - 3);
+    REQUIRE(both.with.stages.size() == 2);
+    REQUIRE(both.condensed_stages.size() == both.kept_stages.size());
+    REQUIRE(both.kept_stages.size() > 20);
+    double apart_in_stages = 0, size = 0;
+    for (std::size_t i = 0; i < both.kept_stages.size(); ++i) {
+      REQUIRE(both.condensed_stages[i].size() == both.kept_stages[i].size());
+      apart_in_stages = std::max(apart_in_stages, (both.condensed_stages[i] - both.kept_stages[i]).cwiseAbs().maxCoeff());
+      size = std::max(size, both.kept_stages[i].cwiseAbs().maxCoeff());
+    }
+    CHECK(size > 0.02);
+    CHECK(apart_in_stages < 1e-11 * size);
+    for (std::size_t i = 0; i < both.without.stages[1].points.size(); ++i) {
+      CHECK(both.with.stages[1].points[i].load_factor == doctest::Approx(both.without.stages[1].points[i].load_factor).epsilon(1e-9));
+    }
+    CHECK(apart(both, &State::displacement) < 1e-9);
+    CHECK(apart(both, &State::velocity) < 1e-8);
+    CHECK(both.with.energy.input == doctest::Approx(both.without.energy.input).epsilon(1e-8));
+  }
+}
+
+TEST_CASE("what a static stage loads or is led by is not condensed, nothing is where the arc length counts all") {
+  const auto found = [](const std::function<void(ModelDescription&)>& change) {
+    ModelDescription d = pushed_portals(1);
+    change(d);
+    return find_condensation(build(d));
+  };
+  const Condensation pushed = found([](ModelDescription&) {});
+  REQUIRE(pushed.condensed == pushed.candidates);
+  const Condensation loaded = found([](ModelDescription& d) { d.stages[0].loads.push_back({{"a.rm0", {}}, 1, 10}); });
+  CHECK(loaded.condensed == pushed.condensed - 1);
+  const Condensation led = found([](ModelDescription& d) { d.stages[1].control_node = Reference{"a.lm0", {}}; });
+  CHECK(led.condensed == pushed.condensed - 1);
+  CHECK_FALSE(led.kept_for_arcs);
+  const Condensation by_arc = found([](ModelDescription& d) { d.stages[1].options.control = "arc-length"; });
+  CHECK(by_arc.kept_for_arcs);
+  CHECK(by_arc.candidates == pushed.candidates);
+  CHECK(by_arc.condensed == 0);
 }
 
 TEST_CASE("the summary says what part of the entries equal frames leave to be stored") {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/decompositions.hpp"
+#include "integrators/algorithms.hpp"
 #include "integrators/static_analysis.hpp"
 #include "tests/integrators/oscillators.hpp"
 #include "tests/support/numbers.hpp"
@@ -133,6 +134,22 @@ TEST_CASE("a load that a perfectly plastic spring cannot carry ends with the ele
   CHECK_THROWS_WITH_AS(solve_static(system, VectorX::Constant(1, 1100), StaticOptions{}, state), doctest::Contains("largest in element 's.k'"),
                        ConvergenceError);
   CHECK(state.internal_force[0] <= 1000);
+}
+
+TEST_CASE("a residual that is not finite is called so, with an element, in place of a number that is none") {
+  const Model model = build(nonlinear_oscillator(1, ElasticPP{1e5, 1e-2}));
+  System system(model, 1);
+  State state = virgin_state(system);
+  const VectorX load = VectorX::Constant(1, 1e200);  // whose square is beyond all numbers
+  CHECK_THROWS_WITH_AS(solve_static(system, load, StaticOptions{}, state),
+                       doctest::Contains("(the residual is not finite), first in element 's.k'"), ConvergenceError);
+  CHECK(told_residual(std::nan(""), "s.k") == "(the residual is not finite), first in element 's.k'");
+  CHECK(told_residual(1.23e-3, "s.k") == "(relative residual 1.2e-03), largest in element 's.k'");
+  // an element of the first DOF that has no number, whatever the others have
+  const Model two = build(yielding_masses(Steel01{1e4, 1e6, 0.1}));
+  const Assembler assembler(two);
+  CHECK(assembler.worst_element(VectorX{{1e9, 1.0}}) == "s.k");
+  CHECK(assembler.worst_element(VectorX{{1e9, std::nan("")}}) == "t.k");
 }
 
 TEST_CASE("gravity cannot act statically on a structure that may move freely") {

@@ -1,5 +1,6 @@
 // What members can't have, with its words and its place: integration, sections, mass, releases, loads.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include "tests/models/descriptions.hpp"
 #include "tests/support/small_models.hpp"
@@ -68,6 +69,33 @@ TEST_CASE("integration, sections, loads and mass that a member can't have are er
   CHECK(error_of(d) ==
         "s.toml:5:3: error: element 'a.e1': a consistent mass needs the axial force and the torsion of both ends tied; "
         "use a lumped mass");
+}
+
+TEST_CASE("what all members of one table can't be is told once, with their number") {
+  ModelDescription d = column();
+  StructureDescription& s = only(d);
+  for (const double x : {1.0, 2.0, 3.0}) {
+    const std::string foot = fmt::format("f{}", x), head = fmt::format("h{}", x);
+    s.nodes.insert(s.nodes.end(), {node(foot, x, 0, 0), node(head, x, 0, 2.5)});
+    s.supports.push_back(fixed(foot));
+    s.elements.push_back(beam("e" + foot, foot, head, "c"));
+  }
+  for (ElementDescription& e : s.elements) {
+    e.at = at(5);
+    e.inner_iterations = true;
+  }
+  s.elements.back().at = at(6);
+  CHECK(error_of(d) ==
+        "s.toml:5:3: error: element 'a.e1' (and 2 more): an elastic beam has no inner_iterations, element = \"force-based\" has\n"
+        "s.toml:6:3: error: element 'a.ef3': an elastic beam has no inner_iterations, element = \"force-based\" has");
+  for (ElementDescription& e : s.elements) e.section = {"d", at(7)};
+  CHECK(error_of(d) == "s.toml:7:3: error: section 'd' is not defined; known: c");
+  // without a place, as of models built by code, each has its own
+  for (ElementDescription& e : s.elements) {
+    e.section = {"c", {}};
+    e.at = {};
+  }
+  CHECK(errors_of(d).size() == 4);
 }
 
 TEST_CASE("a load names beams that are there, and acts between their ends") {

@@ -210,7 +210,7 @@ points = 4
 geometry = "p-delta"
 integration = "legendre"
 member_mass = { density = 7850, rotary_inertia = true }
-nodes = [[1, 0, 0, 0], ["top", 0, 0, "3 m"], { id = 3, x = 1, y = 0, z = 3 }, [4, 1, 1, 3], [5, 0, 1, 3], [6, 0.5, 0.5, 3]]
+nodes = [[1, 0, 0, 0], ["top", 0, 0, "3 m"], { id = 3, x = 1, y = 0, z = 3 }, [4, 1, 1, 3], [5, 0, 1, 3], [6, 0.5, 0.5, 3], [7, 1, 0, 0]]
 supports = { 1 = "fixed", 3 = "pinned", 4 = ["ux", "rz"] }
 masses = { top = "1 t", 3 = [1, 2, 3], 4 = { mass = 5, inertia = [0, 0, "7 kg m2"] } }
 beams = [
@@ -226,6 +226,10 @@ loads = [
   [[1, 3], [1, 2, 3]],
   { beams = "h", axes = "local", force = [0, "-2 kN", 0], position = 0.3 },
   { beams = ["u"], uniform = [0, 0, 1], force = [1, 0, 0] },
+]
+walls = [
+  { id = "k", nodes = [1, "top"], direction = "y", length = "2 m", thickness = "20 cm", E = "30 GPa", poisson = 0.15, attached = 5, mass = { density = 2500 } },
+  { id = "l", nodes = [7, 3], direction = [1, -1, 0], length = 0.3, section = "constants", element = "force-based", points = 3, geometry = "linear" },
 ]
 trusses = [["t", 1, 3, "linear", "1 cm2"]]
 cables = [{ id = "c", nodes = [1, 4], material = "linear", area = 1e-4, pretension = "2 kN", geometry = "linear" }]
