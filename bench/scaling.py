@@ -54,6 +54,7 @@ def nsframe_row(nsframe, columns, stories, quick, name, scheme):
         times.append(step_microseconds(summary))
     return dict(program=name, stories=stories, dofs=summary["dofs"], steps=steps, step_us=min(times), step_us_all=times,
                 setup_s=summary["timing"]["setup"], memory_mb=usage["memory_mb"], impacts=len(summary["impacts"]),
+                pairs_struck=len({impact["pair"] for impact in summary["impacts"]}),
                 iterations=summary["newton_iterations"] / summary["steps"], factorizations=summary["factorizations"])
 
 
@@ -73,17 +74,20 @@ def text_of(columns, rows):
                            for name in ("nsframe, two threads", "nsframe, far", "event-split, far"))
     reference = own.get(8)
     lines = []
+    smaller = None
     for stories, row in own.items():
         peer = other.get(stories)
         per_dof = row["step_us"] / row["dofs"]
+        more = 1e3 * (row["memory_mb"] - smaller["memory_mb"]) / (row["dofs"] - smaller["dofs"]) if smaller else None
+        smaller = row
         relative = per_dof / (reference["step_us"] / reference["dofs"]) if reference else None
         lines.append(["%d" % stories, "%d" % row["dofs"], number(row["step_us"]), number(1e3 * per_dof), number(relative),
-                      number(row["setup_s"]), number(row["memory_mb"]), "%d" % row["impacts"], number(row["iterations"]),
-                      number(two[stories]), number(far[stories]), number(split_far[stories]),
+                      number(row["setup_s"]), number(row["memory_mb"]), number(more), "%d" % row["impacts"], "%d" % row["pairs_struck"],
+                      number(row["iterations"]), number(two[stories]), number(far[stories]), number(split_far[stories]),
                       number(peer["step_us"] if peer else None), number(peer["step_us"] / row["step_us"] if peer else None),
                       number(peer["memory_mb"] if peer else None)])
-    head = ["stories", "DOFs", "µs a step", "ns a DOF", "to 8 stories", "setup, s", "memory, MB", "impacts", "iterations", "two threads, µs",
-            "far, µs", "event-split, far, µs", "OpenSees, µs", "OpenSees / it", "its memory, MB"]
+    head = ["stories", "DOFs", "µs a step", "ns a DOF", "to 8 stories", "setup, s", "memory, MB", "kB a DOF more", "impacts",
+            "pairs struck", "iterations", "two threads, µs", "far, µs", "event-split, far, µs", "OpenSees, µs", "OpenSees / it", "its memory, MB"]
     return "## %s\n\n%s" % (TITLES[columns], table(head, lines))
 
 

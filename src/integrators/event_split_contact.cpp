@@ -43,7 +43,7 @@ const EventSplit::Contact& EventSplit::contact(const System& system, int pair) {
     system.damping.add_force(system.assembler.blocks(), flow_.rule().theta * part_length_, velocity, result);
     return result;
   };
-  const VectorX once = momentum(parts_.matrix.response(system.contacts(), pair));
+  const VectorX once = momentum(parts_.matrix.response(system.contacts(), pair).vector());
   VectorX again;
   parts_.matrix.solve(once, again);
   cached.first = once;
@@ -77,7 +77,12 @@ MatrixX EventSplit::opening(const System& system, const std::vector<int>& pairs,
   const auto count = static_cast<Eigen::Index>(pairs.size());
   MatrixX first(count, count);
   for (Eigen::Index b = 0; b < count; ++b) first.col(b) = parts_.matrix.rates_by(contacts, pairs[static_cast<std::size_t>(b)])(pairs);
-  const MatrixX second = gather(second_response_, pairs, [&](int a, int b) { return contact(system, b).first.dot(parts_.matrix.response(contacts, a)); });
+  int expanded = -1;
+  VectorX response;
+  const MatrixX second = gather(second_response_, pairs, [&](int a, int b) {
+    if (expanded != b) response = parts_.matrix.response(contacts, expanded = b).vector();
+    return contact(system, a).first.dot(response);
+  });
   const auto [once, again] = flow_.response(s);
   return s * s * (once * first - again * second);
 }

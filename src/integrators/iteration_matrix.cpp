@@ -13,8 +13,8 @@ namespace {
 
 // Solves from which on an inverse, about as dear as sixty of them, or chunks of sparse factors, as dear as thirty, have paid for themselves.
 constexpr int solves_before_speed_up = 40;
-// Responses of so many pairs take as long to add up as a solution with sparse factors.
-constexpr int pairs_before_solution = 24;
+// Numbers of responses, over the DOFs, that take as long to add up as a solution with sparse factors.
+constexpr std::size_t entries_before_solution = 24;
 
 }  // namespace
 
@@ -35,9 +35,9 @@ void IterationMatrix::factor(const System& system, const SparseMatrix& stiffness
   solves_ = 0;
   stiffness_.assign(stiffness.valuePtr(), stiffness.valuePtr() + stiffness.nonZeros());
   damping_.assign(system.damping.tangent.valuePtr(), system.damping.tangent.valuePtr() + system.damping.tangent.nonZeros());
-  responses_.assign(static_cast<std::size_t>(system.contacts().size()), VectorX());
-  rates_ = responses_;
-  tangent_responses_.assign(static_cast<std::size_t>(system.contacts().tangents.rows()), VectorX());
+  responses_.assign(static_cast<std::size_t>(system.contacts().size()), {});
+  rates_.assign(responses_.size(), VectorX());
+  tangent_responses_.assign(static_cast<std::size_t>(system.contacts().tangents.rows()), {});
   std::size_t structure = 0;
   for (Block& block : blocks_) {
     while (system.assembler.blocks()[structure].size() == 0) ++structure;
@@ -157,15 +157,17 @@ void IterationMatrix::solve_sparse(const Block& block, const MatrixX& rhs, Matri
   std::visit([&](const auto& factor) { x = factor->solve(rhs); }, block.sparse);
 }
 
-void IterationMatrix::add_modal_damping(const Block& block, VectorX& solution) {
-  if (block.modal->cols() == 0) return;
-  const VectorX coefficients = block.woodbury.solve(block.modal->transpose() * solution);
-  solution.noalias() -= block.woodbury_response * coefficients;
+VectorX IterationMatrix::modal_coefficients(const Block& block) {
+  return block.woodbury.solve(block.modal->transpose() * block.solution);
+}
+
+bool IterationMatrix::next_solve() {
+  if (solves_ < solves_before_speed_up && ++solves_ == solves_before_speed_up) speed_up();
+  return solves_ >= solves_before_speed_up;
 }
 
 void IterationMatrix::solve(const VectorX& rhs, VectorX& x) {
-  if (solves_ < solves_before_speed_up && ++solves_ == solves_before_speed_up) speed_up();
-  const bool fast = solves_ >= solves_before_speed_up;
+  const bool fast = next_solve();
   x.resize(rhs.size());
   if (fast) inverse_.multiply(rhs, x);
   if (fast && all_dense_) return;
@@ -184,6 +186,13 @@ void IterationMatrix::solve_block(Block& block, bool fast, const VectorX& rhs, V
     }
     return;
   }
+  solve_undamped(block, rhs);
+  if (block.modal->cols() > 0) block.solution.noalias() -= block.woodbury_response * modal_coefficients(block);
+  result = block.solution;
+}
+
+void IterationMatrix::solve_undamped(Block& block, const VectorX& rhs) {
+  const auto part = rhs.segment(block.range.first, block.range.size());
   if (block.chunked) {
     block.solution.resize(part.size());
     block.chunked->solve(part.data(), block.solution.data());
@@ -192,34 +201,70 @@ void IterationMatrix::solve_block(Block& block, bool fast, const VectorX& rhs, V
     solve_sparse(block, part, solution);
     block.solution = solution.col(0);
   }
-  add_modal_damping(block, block.solution);
-  result = block.solution;
 }
 
-const VectorX& IterationMatrix::response(const Contacts& contacts, int pair) {
-  VectorX& cached = responses_[static_cast<std::size_t>(pair)];
-  if (cached.size() == 0) {
-    const VectorX row = contacts.jacobian.row(pair).transpose();
-    solve(row, cached);
+ContactResponse IterationMatrix::respond_to(const SparseRows& rows, int row) {
+  ContactResponse response(rows.cols());
+  unit_ = rows.row(row).transpose();
+  if (all_dense_) {
+    VectorX x;
+    solve(unit_, x);
+    response.add(0, x);
+    return response;
   }
+  const bool fast = next_solve();
+  VectorX x(unit_.size());
+  if (fast) inverse_.multiply(unit_, x);
+  for (Block& block : blocks_) {
+    if (unit_.segment(block.range.first, block.range.size()).isZero(0)) continue;
+    if (block.dense) {
+      solve_block(block, fast, unit_, x);
+      response.add(block.range.first, x.segment(block.range.first, block.range.size()));
+    } else {
+      solve_undamped(block, unit_);
+      if (block.modal->cols() > 0) {
+        response.add(block.range.first, block.solution, block.woodbury_response, modal_coefficients(block));
+      } else {
+        response.add(block.range.first, block.solution);
+      }
+    }
+  }
+  return response;
+}
+
+const ContactResponse& IterationMatrix::response(const Contacts& contacts, int pair) {
+  ContactResponse& cached = responses_[static_cast<std::size_t>(pair)];
+  if (cached.size() == 0) cached = respond_to(contacts.jacobian, pair);
   return cached;
 }
 
 const VectorX& IterationMatrix::rates_by(const Contacts& contacts, int pair) {
   VectorX& cached = rates_[static_cast<std::size_t>(pair)];
-  if (cached.size() == 0) cached = contacts.jacobian * response(contacts, pair);
+  if (cached.size() == 0) cached = contacts.jacobian * response(contacts, pair).vector();
   return cached;
 }
 
-const VectorX& IterationMatrix::tangent_response(const Contacts& contacts, int row) {
-  VectorX& cached = tangent_responses_[static_cast<std::size_t>(row)];
-  if (cached.size() == 0) solve(VectorX(contacts.tangents.row(row).transpose()), cached);
+const ContactResponse& IterationMatrix::tangent_response(const Contacts& contacts, int row) {
+  ContactResponse& cached = tangent_responses_[static_cast<std::size_t>(row)];
+  if (cached.size() == 0) cached = respond_to(contacts.tangents, row);
   return cached;
+}
+
+std::size_t IterationMatrix::response_entries() const {
+  std::size_t sum = 0;
+  for (const ContactResponse& response : responses_) sum += response.entries();
+  for (const ContactResponse& response : tangent_responses_) sum += response.entries();
+  return sum;
 }
 
 void IterationMatrix::respond(const Contacts& contacts, const std::vector<int>& pairs, const VectorX& p, VectorX& x) {
-  if (!all_dense_ && (p.array() != 0).count() > pairs_before_solution) {
-    VectorX load = VectorX::Zero(contacts.jacobian.cols());
+  std::size_t entries = 0;
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    if (p[static_cast<Eigen::Index>(k)] != 0) entries += response(contacts, pairs[k]).entries();
+  }
+  const auto dofs = contacts.jacobian.cols();
+  if (!all_dense_ && entries > entries_before_solution * static_cast<std::size_t>(dofs)) {
+    VectorX load = VectorX::Zero(dofs);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const double force = p[static_cast<Eigen::Index>(k)];
       if (force == 0) continue;
@@ -227,11 +272,12 @@ void IterationMatrix::respond(const Contacts& contacts, const std::vector<int>& 
     }
     return solve(load, x);
   }
-  x.setZero(contacts.jacobian.cols());
+  SummedResponses sum(x, dofs);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const double force = p[static_cast<Eigen::Index>(k)];
-    if (force != 0) x += force * response(contacts, pairs[k]);
+    if (force != 0) sum.add(force, response(contacts, pairs[k]));
   }
+  sum.finish();
 }
 
 }  // namespace nsframe

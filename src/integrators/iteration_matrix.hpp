@@ -10,6 +10,7 @@
 #include "assembly/system.hpp"
 #include "base/chunked_rows.hpp"
 #include "base/decompositions.hpp"
+#include "integrators/contact_response.hpp"
 #include "models/snapshot.hpp"
 
 namespace nsframe {
@@ -38,13 +39,15 @@ class IterationMatrix {
   // x = J^-1 rhs; x and rhs may not be the same.
   void solve(const VectorX& rhs, VectorX& x);
   // J^-1 H' of one contact pair (computed once a factorization).
-  const VectorX& response(const Contacts& contacts, int pair);
+  const ContactResponse& response(const Contacts& contacts, int pair);
   // H J^-1 H' of it: the rates of all pairs by its unit impulse.
   const VectorX& rates_by(const Contacts& contacts, int pair);
   // J^-1 T' of a row of Contacts::tangents.
-  const VectorX& tangent_response(const Contacts& contacts, int row);
+  const ContactResponse& tangent_response(const Contacts& contacts, int row);
   // x = J^-1 H' p, p on some pairs: from their responses, or by one solution where that costs less.
   void respond(const Contacts& contacts, const std::vector<int>& pairs, const VectorX& p, VectorX& x);
+  // Numbers stored of the responses so far.
+  std::size_t response_entries() const;
 
  private:
   using SparseFactor = std::variant<std::unique_ptr<SparseCholesky>, std::unique_ptr<Eigen::SparseLU<SparseMatrix>>>;
@@ -64,11 +67,16 @@ class IterationMatrix {
   };
   // Brings the factors in the form that solves fastest.
   void speed_up();
+  // Counts a solution; true when it goes by the fast form.
+  bool next_solve();
   void solve_block(Block& block, bool fast, const VectorX& rhs, VectorX& x) const;
+  // Of a sparse block, without modal damping; to block.solution.
+  static void solve_undamped(Block& block, const VectorX& rhs);
+  ContactResponse respond_to(const SparseRows& rows, int row);
   void factor_dense(Block& block, MatrixX J) const;
   void factor_sparse(Block& block, const SparseMatrix& J, double a) const;
   static void solve_sparse(const Block& block, const MatrixX& rhs, MatrixX& x);
-  static void add_modal_damping(const Block& block, VectorX& solution);
+  static VectorX modal_coefficients(const Block& block);
 
   bool symmetric_, linear_;
   double a_ = -1, b_ = -1;
@@ -80,7 +88,9 @@ class IterationMatrix {
   bool all_dense_ = true;
   int threads_;
   int solves_ = 0;                        // since the last factorization
-  std::vector<VectorX> responses_, tangent_responses_, rates_;
+  std::vector<ContactResponse> responses_, tangent_responses_;
+  std::vector<VectorX> rates_;
+  VectorX unit_;
 };
 
 }  // namespace nsframe

@@ -37,10 +37,10 @@ ContactSolution MoreauJean::solve_with_friction(const System& system, ContactPro
       all.rhs[row] = tangent.dot(trial.velocity);
       for (Eigen::Index b = 0; b < count; ++b) {
         const int other = active_[static_cast<std::size_t>(b)];
-        all.delassus(row, 3 * b) = tangent.dot(matrix_.response(contacts, other));
-        all.delassus(3 * b, row) = contacts.jacobian.row(other).dot(matrix_.tangent_response(contacts, 2 * pair + k));
+        all.delassus(row, 3 * b) = matrix_.response(contacts, other).rate(contacts.tangents, 2 * pair + k);
+        all.delassus(3 * b, row) = matrix_.tangent_response(contacts, 2 * pair + k).rate(contacts.jacobian, other);
         for (int l = 0; l < 2 && contacts.friction[other] > 0; ++l) {
-          all.delassus(row, 3 * b + 1 + l) = tangent.dot(matrix_.tangent_response(contacts, 2 * other + l));
+          all.delassus(row, 3 * b + 1 + l) = matrix_.tangent_response(contacts, 2 * other + l).rate(contacts.tangents, 2 * pair + k);
         }
       }
     }
@@ -68,7 +68,7 @@ void MoreauJean::add_friction_response(const Contacts& contacts, double factor, 
   for (Eigen::Index i = 0; i < friction_impulse_.size(); ++i) {
     if (friction_impulse_[i] == 0) continue;
     const int row = 2 * active_[static_cast<std::size_t>(i / 2)] + static_cast<int>(i % 2);
-    velocity += factor * friction_impulse_[i] * matrix_.tangent_response(contacts, row);
+    matrix_.tangent_response(contacts, row).add_to(factor * friction_impulse_[i], velocity);
   }
 }
 

@@ -109,7 +109,7 @@ void PenaltyForces::start_step(const Contacts& contacts, const State& committed,
 void PenaltyForces::add_velocity(const Contacts& contacts, IterationMatrix& matrix, double factor, VectorX& velocity) const {
   for (std::size_t a = 0; a < problem_.pairs.size(); ++a) {
     const double p = impulse_[static_cast<Eigen::Index>(a)];
-    if (p != 0) velocity += factor * p * matrix.response(contacts, problem_.pairs[a].pair);
+    if (p != 0) matrix.response(contacts, problem_.pairs[a].pair).add_to(factor * p, velocity);
   }
 }
 

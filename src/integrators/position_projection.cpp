@@ -27,7 +27,7 @@ VectorX shift_to_closed(const Contacts& contacts, IterationMatrix& matrix, const
   }
   VectorX shift = VectorX::Zero(contacts.jacobian.cols());
   for (Eigen::Index a = 0; a < count; ++a) {
-    shift += solution.impulse[a] * matrix.response(contacts, pairs[static_cast<std::size_t>(a)].pair);
+    matrix.response(contacts, pairs[static_cast<std::size_t>(a)].pair).add_to(solution.impulse[a], shift);
   }
   return shift;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/errors.hpp"
+#include "base/large_pages.hpp"
 #include "base/timer.hpp"
 
 namespace nsframe {
@@ -336,7 +337,11 @@ void TimeHistory::restore(State& committed) {
 TimeHistoryResult TimeHistory::run(double duration, State& committed) {
   const int steps = static_cast<int>(std::llround(duration / options_.dt));
   begin(committed, duration);
+  VectorX history = on_large_pages(committed.history);
+  committed.history.resize(0);  // never three of them at a time
   State trial = committed;
+  committed.history = on_large_pages(history);
+  trial.history = std::move(history);
   const bool saves = control_.keep_snapshot && control_.snapshot_interval > 0;
   while (result_.steps < steps && !stop_now() && step(result_.steps + 1, committed, trial)) {
     std::swap(committed, trial);

@@ -73,7 +73,7 @@ TEST_CASE("sparse factors with Woodbury's identity solve like dense ones with th
       CHECK((x - y).norm() < 4 * epsilon * condition * x.norm());
       CHECK((J * x - rhs).norm() < 64 * epsilon * J.norm() * x.norm());
       CHECK((J * y - rhs).norm() < 64 * epsilon * J.norm() * y.norm());
-      CHECK((dense.response(model.contacts, 0) - sparse.response(model.contacts, 0)).norm() < 4 * epsilon * condition * x.norm());
+      CHECK((dense.response(model.contacts, 0).vector() - sparse.response(model.contacts, 0).vector()).norm() < 4 * epsilon * condition * x.norm());
     }
   }
 }
@@ -94,11 +94,36 @@ TEST_CASE("many impulses at once change the velocity as the sum of their respons
     IterationMatrix matrix(system, {dense_limit});
     matrix.factor(system, simulation.initial_stiffness(), 1e-3);
     sum.setZero();
-    for (const int c : pairs) sum += impulse[c] * matrix.response(system.contacts(), c);
+    for (const int c : pairs) sum += impulse[c] * matrix.response(system.contacts(), c).vector();
     matrix.respond(system.contacts(), pairs, impulse, x);
     CHECK((x - sum).norm() < 1e-12 * sum.norm());
     matrix.respond(system.contacts(), {3}, VectorX::Constant(1, 2.0), x);
-    CHECK((x - 2 * matrix.response(system.contacts(), 3)).norm() < 1e-15 * x.norm());
+    CHECK((x - 2 * matrix.response(system.contacts(), 3).vector()).norm() < 1e-15 * x.norm());
+  }
+}
+
+TEST_CASE("a response keeps what is near its pair and the modal damping: as much in a tower twice as tall, and the whole solution of J") {
+  std::size_t entries = 0;
+  for (const int elements : {80, 160}) {
+    const Model model = build(towers(Geometry::linear, elements));
+    Simulation simulation(model, options(1, 1e-3, 1));
+    const Contacts& contacts = simulation.system().contacts();
+    IterationMatrix matrix(simulation.system(), {0});
+    matrix.factor(simulation.system(), simulation.initial_stiffness(), 1e-4);
+    const VectorX row = contacts.jacobian.row(0).transpose();
+    VectorX whole, x = VectorX::Constant(row.size(), 0.25);
+    matrix.solve(row, whole);
+    const ContactResponse& response = matrix.response(contacts, 0);
+    CHECK((response.vector() - whole).cwiseAbs().maxCoeff() <= 4 * epsilon * whole.cwiseAbs().maxCoeff());
+    for (int i = 0; i < 2; ++i) CHECK(whole.segment(simulation.system().assembler.blocks()[static_cast<std::size_t>(i)].first, 12).norm() > 0);
+    CHECK(response.rate(contacts.jacobian, 0) == doctest::Approx(row.dot(whole)).epsilon(1e-14));
+    CHECK(matrix.rates_by(contacts, 0)[0] == doctest::Approx(row.dot(whole)).epsilon(1e-14));
+    response.add_to(-3, x);
+    CHECK((x - VectorX::Constant(row.size(), 0.25) + 3 * whole).norm() < 1e-14 * whole.norm() + 64 * epsilon);
+    CHECK(matrix.response_entries() == response.entries());
+    if (entries > 0) CHECK(response.entries() < entries + entries / 10);  // masses grow with height
+    entries = response.entries();
+    CHECK(entries < static_cast<std::size_t>(row.size()) / 2);
   }
 }
 
