@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "base/large_pages.hpp"
 #include "tests/support/numbers.hpp"
 #include "tests/support/simd_targets.hpp"
 
@@ -177,5 +178,15 @@ TEST_CASE("elimination order: floor by floor where floors are alike, else by min
     const Eigen::SimplicialLDLT<SparseMatrix> least(A);
     const auto& place = least.permutationP().indices();
     CHECK(factor_entries(A, {place.data(), place.data() + place.size()}) == minimum(A));
+  }
+}
+
+TEST_CASE("a copy on large pages is the array, below and from the length on from which they are asked for") {
+  for (const Eigen::Index size : {Eigen::Index{0}, Eigen::Index{7}, large_page_doubles - 1, large_page_doubles, 2 * large_page_doubles + 12345}) {
+    const VectorX array = VectorX::LinSpaced(size, -1, 2);
+    const VectorX copy = on_large_pages(array);
+    REQUIRE(copy.size() == size);
+    CHECK((size == 0 || copy.data() != array.data()));
+    CHECK(same_bits(copy, array));
   }
 }
