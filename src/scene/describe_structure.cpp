@@ -267,6 +267,7 @@ std::vector<SectionDescription> own_sections(const ExplicitStructure& structure)
       out.push_back({wall_section_name(wall, structure, story).name, wall.id.at,
                      wall_section(2 * y, 2 * z, wall.E.value_or(0), wall.poisson.value_or(0.2)),
                      rectangle_outline({{-y, y}, {-z, z}})});
+      out.back().faulty = !(y > 0 && z > 0 && wall.E.value_or(0) > 0);  // reported where it was read
     }
   }
   return out;

@@ -201,4 +201,11 @@ TEST_CASE("names of a wall that the structure doesn't have, or has already, are 
   std::string text = beside_column(walls(plain + concrete));
   text.replace(text.find("[\"f\", 6, 0, 0]"), 0, "[\"1+\", 1.5, 0, 3], ");
   CHECK(built(text) == "s.toml:12:34: error: the edge of wall 'w' at node '1' would be called '1+', which is another node's name");
+
+  // nothing follows from a length that is missing
+  Diagnostics diagnostics;
+  const Scene s = parse_scene(beside_column(walls("id = \"w\", nodes = [0, 1, 2]" + concrete)), "s.toml", {}, {}, diagnostics);
+  CHECK_THROWS_AS(build_model(s.model, diagnostics), InputError);
+  REQUIRE(diagnostics.messages().size() == 1);
+  CHECK(diagnostics.messages()[0] == "s.toml:12:10: error: missing key 'length'");
 }
