@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "elements/infill.hpp"
-#include "integrators/simulation.hpp"
 #include "scene_text.hpp"
 
 using namespace nsframe;
+using test::displaced;
 using test::error;
 using test::scene;
 
@@ -34,15 +34,7 @@ loads = [["a.3", "ux", ")" + std::to_string(force) + R"( kN"]]
 )";
 }
 
-double top(const std::string& text) {
-  const Scene s = scene(text);
-  Diagnostics diagnostics;
-  const Model model = build_model(s.model, diagnostics);
-  Simulation simulation(model, s.analysis);
-  std::vector<StageResult> results;
-  REQUIRE(simulation.run_stages(1, {s.analysis.algorithm, {}, {}}, results));
-  return model.dofs.expand(simulation.state().displacement)[6 * 2];
-}
+double top(const std::string& text) { return displaced(text)[6 * 2]; }
 
 const std::string panel =
     R"(thickness = "20 cm", E = "5 GPa", column_EI = "20.25 MN m2", height = "2.7 m", length = "4.7 m")";

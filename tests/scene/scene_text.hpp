@@ -1,9 +1,12 @@
 // Scenes from texts, for tests.
 #pragma once
 
+#include <doctest/doctest.h>
+
 #include <string>
 #include <vector>
 
+#include "integrators/simulation.hpp"
 #include "scene/scene.hpp"
 #include "tests/support/files.hpp"
 
@@ -28,6 +31,17 @@ inline std::string error(std::string_view text, const std::vector<std::string>& 
   std::string out = all.empty() ? "no error" : all.front();
   for (std::size_t i = 1; i < all.size(); ++i) out += "\n" + all[i];
   return out;
+}
+
+// Displacements of all nodes after the static stages of a scene, full DOFs [m], [rad].
+inline VectorX displaced(std::string_view text) {
+  const Scene s = scene(text);
+  Diagnostics diagnostics;
+  const Model model = build_model(s.model, diagnostics);
+  Simulation simulation(model, s.analysis);
+  std::vector<StageResult> results;
+  REQUIRE(simulation.run_stages(1, {s.analysis.algorithm, {}, {}}, results));
+  return model.dofs.expand(simulation.state().displacement);
 }
 
 }  // namespace nsframe::test

@@ -4,10 +4,10 @@
 #include <algorithm>
 
 #include "base/errors.hpp"
-#include "integrators/simulation.hpp"
 #include "scene_text.hpp"
 
 using namespace nsframe;
+using test::displaced;
 using test::error;
 using test::scene;
 
@@ -39,16 +39,6 @@ const std::string plain = R"(id = "w", nodes = [0, 1, 2], length = "3 m", attach
 const std::string concrete = R"(, thickness = ["30 cm", "20 cm"], E = "30 GPa")";
 
 std::string walls(const std::string& keys) { return "walls = [{ " + keys + " }]" + beams; }
-
-VectorX pushed(const std::string& text) {
-  const Scene s = scene(text);
-  Diagnostics diagnostics;
-  const Model model = build_model(s.model, diagnostics);
-  Simulation simulation(model, s.analysis);
-  std::vector<StageResult> results;
-  REQUIRE(simulation.run_stages(1, {s.analysis.algorithm, {}, {}}, results));
-  return model.dofs.expand(simulation.state().displacement).head(6 * 7);  // of the nodes that the scene lists
-}
 
 std::string refused(const std::string& keys) { return error(beside_column(walls(keys))); }
 
@@ -112,19 +102,10 @@ Az = 0.5
 )";
   std::string text = beside_column(by_hand);
   text.replace(text.find("[\"f\", 6, 0, 0]"), 0, "[\"e\", 1.5, 0, 3], ");
-  const VectorX hand = [&] {
-    const Scene s = scene(text);
-    Diagnostics diagnostics;
-    const Model model = build_model(s.model, diagnostics);
-    Simulation simulation(model, s.analysis);
-    std::vector<StageResult> results;
-    REQUIRE(simulation.run_stages(1, {s.analysis.algorithm, {}, {}}, results));
-    const VectorX all = model.dofs.expand(simulation.state().displacement);
-    VectorX listed(6 * 7);
-    listed << all.head(6 * 4), all.tail(6 * 3);
-    return listed;
-  }();
-  const VectorX wall = pushed(beside_column(walls(plain + concrete)));
+  const VectorX all = displaced(text);
+  VectorX hand(6 * 7);
+  hand << all.head(6 * 4), all.tail(6 * 3);  // without "e"
+  const VectorX wall = displaced(beside_column(walls(plain + concrete))).head(6 * 7);  // of the nodes that the scene lists
   CHECK(hand[6 * 6] > 1e-4);
   CHECK((wall - hand).norm() < 1e-9 * hand.norm());
 }
