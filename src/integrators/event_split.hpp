@@ -69,12 +69,10 @@ class EventSplit : public Scheme {
   bool is_closed(int pair) const;
   // A pair as the flow sees it: its gap begins with the rate momentum' v, and a unit impulse changes v by `jump` = M^-1 momentum.
   struct Contact {
-    VectorX momentum, jump, first;  // first: (M + a C) J^-1 H'
+    VectorX momentum, jump;
+    VectorX second_rates;           // H J^-1 (M + a C) J^-1 H', of all pairs
   };
   const Contact& contact(const System& system, int pair);
-  // Entries of matrices pair by pair, computed once a factorization: `entry` of what is not known yet.
-  template <class Entry>
-  MatrixX gather(MatrixX& known, const std::vector<int>& pairs, const Entry& entry);
   MatrixX delassus(const System& system, const std::vector<int>& pairs);  // momentum' jump [1/kg]
   // What constant forces between the pairs add to their gaps over a part of length s.
   MatrixX opening(const System& system, const std::vector<int>& pairs, double s);
@@ -98,7 +96,7 @@ class EventSplit : public Scheme {
   VectorX gap_, rate_;                  // rates only of pairs that touch, as the flow begins with them
   std::vector<Contact> contacts_;       // of the factorization
   long contacts_factored_ = -1;
-  MatrixX delassus_, second_response_;  // of gather(): momentum' jump, H J^-1 (M + a C) J^-1 H'
+  MatrixX delassus_;                    // of all pairs; NaN where not known yet
   VectorX contact_impulse_, step_impulse_;  // of sustained contacts since they closed; of all pairs in the step [N s]
   double largest_approach_ = 0;         // [m/s]
   VectorX last_displacement_, last_velocity_;

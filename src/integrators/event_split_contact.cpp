@@ -32,9 +32,7 @@ const EventSplit::Contact& EventSplit::contact(const System& system, int pair) {
   if (contacts_factored_ != parts_.matrix.factorizations()) {
     contacts_.assign(static_cast<std::size_t>(system.contacts().size()), {});
     contacts_factored_ = parts_.matrix.factorizations();
-    for (MatrixX* known : {&delassus_, &second_response_}) {
-      known->setConstant(system.contacts().size(), system.contacts().size(), std::numeric_limits<double>::quiet_NaN());
-    }
+    delassus_.setConstant(system.contacts().size(), system.contacts().size(), std::numeric_limits<double>::quiet_NaN());
   }
   Contact& cached = contacts_[static_cast<std::size_t>(pair)];
   if (cached.momentum.size() > 0) return cached;
@@ -46,43 +44,31 @@ const EventSplit::Contact& EventSplit::contact(const System& system, int pair) {
   const VectorX once = momentum(parts_.matrix.response(system.contacts(), pair).vector());
   VectorX again;
   parts_.matrix.solve(once, again);
-  cached.first = once;
+  cached.second_rates = system.contacts().jacobian * again;
   cached.momentum = 2 * once - momentum(again);
   cached.jump = impact_.velocity_change(cached.momentum);
   return cached;
 }
 
-template <class Entry>
-MatrixX EventSplit::gather(MatrixX& known, const std::vector<int>& pairs, const Entry& entry) {
-  const auto count = static_cast<Eigen::Index>(pairs.size());
-  MatrixX W(count, count);
-  for (Eigen::Index b = 0; b < count; ++b) {
-    for (Eigen::Index a = 0; a < count; ++a) {
-      double& value = known(pairs[static_cast<std::size_t>(a)], pairs[static_cast<std::size_t>(b)]);
-      if (std::isnan(value)) value = entry(pairs[static_cast<std::size_t>(a)], pairs[static_cast<std::size_t>(b)]);
-      W(a, b) = value;
-    }
-  }
-  return W;
-}
-
 MatrixX EventSplit::delassus(const System& system, const std::vector<int>& pairs) {
   for (const int c : pairs) contact(system, c);
-  return gather(delassus_, pairs, [&](int a, int b) { return contact(system, a).momentum.dot(contact(system, b).jump); });
+  for (const int b : pairs) {
+    for (const int a : pairs) {
+      double& value = delassus_(a, b);
+      if (std::isnan(value)) value = contact(system, a).momentum.dot(contact(system, b).jump);
+    }
+  }
+  return delassus_(pairs, pairs);
 }
 
 MatrixX EventSplit::opening(const System& system, const std::vector<int>& pairs, double s) {
-  for (const int c : pairs) contact(system, c);
-  const Contacts& contacts = system.contacts();
   const auto count = static_cast<Eigen::Index>(pairs.size());
-  MatrixX first(count, count);
-  for (Eigen::Index b = 0; b < count; ++b) first.col(b) = parts_.matrix.rates_by(contacts, pairs[static_cast<std::size_t>(b)])(pairs);
-  int expanded = -1;
-  VectorX response;
-  const MatrixX second = gather(second_response_, pairs, [&](int a, int b) {
-    if (expanded != b) response = parts_.matrix.response(contacts, expanded = b).vector();
-    return contact(system, a).first.dot(response);
-  });
+  MatrixX first(count, count), second(count, count);
+  for (Eigen::Index b = 0; b < count; ++b) {
+    const int pair = pairs[static_cast<std::size_t>(b)];
+    first.col(b) = parts_.matrix.rates_by(system.contacts(), pair)(pairs);
+    second.col(b) = contact(system, pair).second_rates(pairs);
+  }
   const auto [once, again] = flow_.response(s);
   return s * s * (once * first - again * second);
 }
