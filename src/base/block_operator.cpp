@@ -15,55 +15,57 @@ BlockOperator::BlockOperator(const SparseMatrix& matrix, const std::vector<Block
     const SparseMatrix part = extract_block(matrix, range);
     const bool crowded = 16 * part.nonZeros() > static_cast<Eigen::Index>(range.size()) * range.size();
     if (range.size() <= dense_limit && crowded) {
-      add({range, PaddedMatrix(MatrixX(part)), {}, {}, {}});
+      add({range, range, PaddedMatrix(MatrixX(part)), {}, {}, {}});
     } else {
-      add({range, {}, ChunkedRows(part), {}, {}});
+      add({range, range, {}, ChunkedRows(part), {}, {}});
     }
   }
 }
 
-BlockOperator::BlockOperator(const std::vector<MatrixX>& matrices, const std::vector<BlockRange>& blocks) {
-  for (std::size_t i = 0; i < blocks.size(); ++i) add({blocks[i], PaddedMatrix(matrices[i]), {}, {}, {}});
+BlockOperator::BlockOperator(const std::vector<MatrixX>& matrices, const std::vector<BlockRange>& rows, const std::vector<BlockRange>& columns) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    MatrixX whole = MatrixX::Zero(rows[i].size(), columns[i].size());
+    whole.topLeftCorner(matrices[i].rows(), matrices[i].cols()) = matrices[i];
+    add({rows[i], columns[i], PaddedMatrix(whole), {}, {}, {}});
+  }
 }
 
 void BlockOperator::add(Block block) {
   block.padded.resize(static_cast<std::size_t>(block.dense.empty() ? block.sparse.padded_rows() : block.dense.padded_rows()));
   block.padded2.resize(block.padded.size());
-  size_ = std::max(size_, block.range.last);
+  rows_ = std::max(rows_, block.rows.last);
   blocks_.push_back(std::move(block));
 }
 
 StoredEntries BlockOperator::entries() const {
   StoredEntries sum;
   for (const Block& block : blocks_) {
-    const long all = static_cast<long>(block.range.size()) * block.range.size();
+    const long all = static_cast<long>(block.rows.size()) * block.columns.size();
     sum += block.dense.empty() ? block.sparse.entries() : StoredEntries{all, all};
   }
   return sum;
 }
 
 void BlockOperator::multiply(const VectorX& x, VectorX& y) const {
-  y.resize(x.size());
+  y.resize(rows_);
   parallel_for(static_cast<int>(blocks_.size()), threads_, [&](int i) {
     const Block& block = blocks_[static_cast<std::size_t>(i)];
-    const BlockRange& range = block.range;
-    const double* const from = x.data() + range.first;
+    const double* const from = x.data() + block.columns.first;
     double* const to = block.padded.data();
     if (block.dense.empty()) {
       block.sparse.multiply(from, to);
     } else {
       block.dense.multiply(from, to);
     }
-    std::copy_n(to, range.size(), y.data() + range.first);
+    std::copy_n(to, block.rows.size(), y.data() + block.rows.first);
   });
 }
 
 void BlockOperator::multiply(const VectorX& x, const VectorX& x2, VectorX& y, VectorX& y2) const {
-  y.resize(x.size());
-  y2.resize(x2.size());
+  y.resize(rows_);
+  y2.resize(rows_);
   for (const Block& block : blocks_) {
-    const BlockRange& range = block.range;
-    const double *const from = x.data() + range.first, *const from2 = x2.data() + range.first;
+    const double *const from = x.data() + block.columns.first, *const from2 = x2.data() + block.columns.first;
     double *const to = block.padded.data(), *const to2 = block.padded2.data();
     if (block.dense.empty()) {
       block.sparse.multiply(from, to);
@@ -71,8 +73,8 @@ void BlockOperator::multiply(const VectorX& x, const VectorX& x2, VectorX& y, Ve
     } else {
       block.dense.multiply(from, from2, to, to2);
     }
-    std::copy_n(to, range.size(), y.data() + range.first);
-    std::copy_n(to2, range.size(), y2.data() + range.first);
+    std::copy_n(to, block.rows.size(), y.data() + block.rows.first);
+    std::copy_n(to2, block.rows.size(), y2.data() + block.rows.first);
   }
 }
 

@@ -1,4 +1,5 @@
-// A block-diagonal matrix, one block a connected structure: small blocks dense, large ones in chunks of rows, all by SIMD.
+// A matrix of blocks side by side, one block a connected structure, each with rows and columns of its own: small blocks dense, large ones in
+// chunks of rows, all by SIMD.
 #pragma once
 
 #include <vector>
@@ -21,27 +22,28 @@ class BlockOperator {
   BlockOperator() = default;
   // `matrix` must have no entries outside the blocks. Blocks up to `dense_limit` rows are kept dense.
   BlockOperator(const SparseMatrix& matrix, const std::vector<BlockRange>& blocks, int dense_limit);
-  // From dense blocks.
-  BlockOperator(const std::vector<MatrixX>& matrices, const std::vector<BlockRange>& blocks);
+  // From dense blocks; `columns`: where their columns stand, if not where their rows do. Rows that a matrix lacks of its range are zero.
+  BlockOperator(const std::vector<MatrixX>& matrices, const std::vector<BlockRange>& blocks) : BlockOperator(matrices, blocks, blocks) {}
+  BlockOperator(const std::vector<MatrixX>& matrices, const std::vector<BlockRange>& rows, const std::vector<BlockRange>& columns);
 
-  // y = A x; x and y may not be the same.
+  // y = A x, y of rows() entries; x and y may not be the same.
   void multiply(const VectorX& x, VectorX& y) const;
   // y = A x and y2 = A x2, for less than twice the time of one.
   void multiply(const VectorX& x, const VectorX& x2, VectorX& y, VectorX& y2) const;
-  int size() const { return size_; }
+  int rows() const { return rows_; }
   StoredEntries entries() const;
   // Of multiply(): a thread a block.
   void set_threads(int threads) { threads_ = threads; }
 
  private:
   struct Block {
-    BlockRange range;
+    BlockRange rows, columns;
     PaddedMatrix dense;  // empty when sparse
     ChunkedRows sparse;
     mutable AlignedVector padded, padded2;  // results with the rows added
   };
   void add(Block block);
-  int size_ = 0, threads_ = 1;
+  int rows_ = 0, threads_ = 1;
   std::vector<Block> blocks_;
 };
 

@@ -27,15 +27,8 @@ EventFlow::EventFlow(const AnalysisOptions& options, ExactModes modes)
 }
 
 void EventFlow::start(const System& system, const State& committed) {
-  VectorX padded = VectorX::Zero(modes_.padded), modal = padded;
-  padded.head(modes_.dofs) = committed.displacement;
-  modes_.projection.multiply(padded, modal);
-  state_.x = VectorX::Zero(modes_.padded);
-  state_.x.head(modes_.dofs) = modal.head(modes_.dofs);
-  padded.head(modes_.dofs) = committed.velocity;
-  modes_.projection.multiply(padded, modal);
-  state_.y = VectorX::Zero(modes_.padded);
-  state_.y.head(modes_.dofs) = modal.head(modes_.dofs);
+  modes_.projection.multiply(committed.displacement, state_.x);
+  modes_.projection.multiply(committed.velocity, state_.y);
   for (const DampingCoupling& coupling : modes_.couplings) {
     for (Eigen::Index i = 0; i < coupling.rest.size(); ++i) state_.x[coupling.places[static_cast<std::size_t>(coupling.square.size() + i)]] -= coupling.rest[i];
   }
@@ -166,9 +159,8 @@ bool EventFlow::glide(const System& system, double time, double h, ModalState& e
 
 void EventFlow::write(VectorX& displacement, VectorX& velocity) {
   propagator_.coupled().set_rates(state_);
-  modes_.shape.multiply(state_.x, state_.y, full_, full_rate_);
-  displacement = full_.head(modes_.dofs) + modes_.rest;
-  velocity = full_rate_.head(modes_.dofs);
+  modes_.shape.multiply(state_.x, state_.y, displacement, velocity);
+  displacement += modes_.rest;
   propagator_.coupled().clear_rates(state_);
   if (closed_pairs(true).empty()) return;
   displacement += modes_.massless_response * compliant_forces(contact_.constant + modes_.gap * state_.x);
@@ -311,7 +303,7 @@ void EventFlow::restore(const Snapshot& snapshot) {
 
 std::vector<std::string> EventFlow::describe() const {
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("natural modes: {}{}", modes_.dofs - modes_.massless,
+  lines.push_back(fmt::format("natural modes: {}{}", modes_.moving,
                               modes_.massless > 0 ? fmt::format(", {} DOFs without mass condensed", modes_.massless) : ""));
   for (const DampingCoupling& coupling : modes_.couplings) {
     const auto first_order = coupling.rate.size();

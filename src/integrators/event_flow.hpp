@@ -88,7 +88,7 @@ class EventFlow {
   double largest_approach_ = 0;         // [m/s]
   bool disturbed_ = true;
   ModalForce force_;
-  VectorX full_, full_rate_, slope_;  // room for write() and set_load()
+  VectorX slope_;                     // room for set_load()
   ModalState piece_;                  // room for glide()
   VectorX glide_gap_, glide_rate_;
 };

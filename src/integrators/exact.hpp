@@ -15,8 +15,8 @@ class Exact : public Scheme {
   bool condenses_massless() const override { return true; }
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, w}; }
-  ModeResponse complex_mode(int mode) const override {
-    const auto [ratio, frequency] = flow_.modes().complex_mode(mode);
+  ModeResponse complex_mode(int structure, int mode) const override {
+    const auto [ratio, frequency] = flow_.modes().complex_mode(structure, mode);
     return {ratio, frequency};
   }
   long factorizations() const override { return 0; }

@@ -82,10 +82,10 @@ void find_contacts(const System& system, const std::vector<BlockModes>& blocks, 
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     const BlockRange& range = system.assembler.blocks()[b];
     const auto part = H.middleCols(range.first, range.size());
-    const Eigen::Index count = blocks[b].square.size();
-    modes.gap.middleCols(range.first, count) = part * blocks[b].shape;
+    const Eigen::Index first = modes.ranges[b].first, count = blocks[b].square.size();
+    modes.gap.middleCols(first, count) = part * blocks[b].shape;
     modes.massless_response.middleRows(range.first, range.size()) = blocks[b].flexibility * part.transpose();
-    modes.velocity_jump.middleRows(range.first, range.size()) = blocks[b].shape * modes.gap.middleCols(range.first, count).transpose();
+    modes.velocity_jump.middleRows(range.first, range.size()) = blocks[b].shape * modes.gap.middleCols(first, count).transpose();
   }
   modes.gap_size = modes.gap.cwiseAbs();
   modes.delassus = modes.gap * modes.gap.transpose();
@@ -93,7 +93,7 @@ void find_contacts(const System& system, const std::vector<BlockModes>& blocks, 
   modes.compliant.assign(static_cast<std::size_t>(pairs), false);
   for (int c = 0; c < pairs; ++c) {
     double flexible = 0;
-    for (int k = 0; k < n; ++k) {
+    for (int k = 0; k < modes.padded; ++k) {
       if (modes.square[k] > 0) flexible += modes.gap(c, k) * modes.gap(c, k) / modes.square[k];
     }
     const bool compliant = modes.compliance(c, c) > 1e-12 * flexible;
@@ -106,7 +106,7 @@ void find_contacts(const System& system, const std::vector<BlockModes>& blocks, 
       modes.compliance.col(c).setZero();
       modes.massless_response.col(c).setZero();
     }
-    for (int k = 0; k < n; ++k) {
+    for (int k = 0; k < modes.padded; ++k) {
       if (modes.gap(c, k) * modes.gap(c, k) > 1e-18 * modes.delassus(c, c)) modes.highest = std::max(modes.highest, std::sqrt(modes.square[k]) + 2 * modes.decay[k]);
     }
   }
@@ -137,7 +137,8 @@ std::string nonlinear_element(const System& system) {
   return "a load";
 }
 
-std::pair<double, double> ExactModes::complex_mode(int place) const {
+std::pair<double, double> ExactModes::complex_mode(int structure, int mode) const {
+  const int place = ranges[static_cast<std::size_t>(structure)].first + mode;
   for (const DampingCoupling& coupling : couplings) {
     const auto end = coupling.places.begin() + coupling.square.size(), found = std::find(coupling.places.begin(), end, place);
     if (found != end) return {coupling.complex_damping[found - coupling.places.begin()], coupling.complex_frequency[found - coupling.places.begin()]};
@@ -148,48 +149,58 @@ std::pair<double, double> ExactModes::complex_mode(int place) const {
 ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
   const Model& model = system.model;
   const int n = model.dofs.size();
+  const std::vector<BlockRange>& ranges = system.assembler.blocks();
+  const MatrixX H = MatrixX(model.contacts.jacobian);
   ExactModes modes;
   modes.dofs = n;
-  modes.padded = (n + dense_row_padding - 1) / dense_row_padding * dense_row_padding;
+  std::vector<BlockModes> blocks;
+  std::vector<BlockDamping> dampings;
+  for (std::size_t b = 0; b < ranges.size(); ++b) {
+    const int size = ranges[b].size();
+    const Structure& structure = model.structures[b];
+    const MatrixX K(extract_block(stiffness, ranges[b])), M(extract_block(model.mass, ranges[b]));
+    BlockModes block = size == 0                    ? BlockModes{VectorX(0), MatrixX(0, 0), MatrixX(0, 0), MatrixX(0, 0)}
+                       : size <= long_double_limit ? solve_block<long double>(K, M, structure.may_move_freely)
+                                                   : solve_block<double>(K, M, structure.may_move_freely);
+    MatrixX C(extract_block(system.damping.viscous, ranges[b]));
+    C += system.damping.modal[b] * system.damping.modal[b].transpose();
+    dampings.push_back(block_damping(system, structure, block, K, C, H.middleCols(ranges[b].first, size)));
+    const auto count = static_cast<int>(block.square.size() + dampings.back().follow.cols());
+    modes.ranges.push_back({modes.padded, modes.padded + (count + dense_row_padding - 1) / dense_row_padding * dense_row_padding});
+    modes.padded = modes.ranges.back().last;
+    blocks.push_back(std::move(block));
+  }
   modes.square = modes.damped = modes.flexibility = VectorX::Ones(modes.padded);
   modes.decay = VectorX::Zero(modes.padded);
   modes.static_load = VectorX::Zero(modes.padded);
   modes.motion_load.assign(model.motions.size(), VectorX::Zero(modes.padded));
   modes.rest = VectorX::Zero(n);
-  const std::vector<BlockRange>& ranges = system.assembler.blocks();
-  const MatrixX H = MatrixX(model.contacts.jacobian);
-  std::vector<BlockModes> blocks;
   std::vector<MatrixX> shapes, projections, transposed, flexibilities;
   for (std::size_t b = 0; b < ranges.size(); ++b) {
-    const BlockRange& range = ranges[b];
+    const BlockRange &range = ranges[b], &places = modes.ranges[b];
     const int size = range.size();
-    const Structure& structure = model.structures[b];
-    const MatrixX K(extract_block(stiffness, range)), M(extract_block(model.mass, range));
-    BlockModes block = size == 0                    ? BlockModes{VectorX(0), MatrixX(0, 0), MatrixX(0, 0), MatrixX(0, 0)}
-                       : size <= long_double_limit ? solve_block<long double>(K, M, structure.may_move_freely)
-                                                   : solve_block<double>(K, M, structure.may_move_freely);
-    MatrixX C(extract_block(system.damping.viscous, range));
-    C += system.damping.modal[b] * system.damping.modal[b].transpose();
-    BlockDamping damping = block_damping(system, structure, block, K, C, H.middleCols(range.first, size));
+    const BlockModes& block = blocks[b];
+    BlockDamping& damping = dampings[b];
     const auto count = static_cast<int>(block.square.size()), first_order = static_cast<int>(damping.follow.cols());
     modes.massless += size - count;
+    modes.moving += count;
     std::vector<bool> coupled(static_cast<std::size_t>(count + first_order), false);
     for (DampingCoupling& coupling : damping.couplings) {
       modes.undamped = false;
       for (int& place : coupling.places) {
         coupled[static_cast<std::size_t>(place)] = true;
-        place += range.first;
+        place += places.first;
       }
       modes.couplings.push_back(std::move(coupling));
     }
-    MatrixX shape = MatrixX::Zero(size, size), projection = MatrixX::Zero(size, size);
+    MatrixX shape(size, count + first_order), projection(count + first_order, size);
     shape.leftCols(count) = block.shape;
-    projection.topRows(count) = block.shape.transpose() * M;
-    shape.middleCols(count, first_order) = damping.follow;
-    projection.middleRows(count, first_order) = damping.follow_projection;
-    for (int j = 0; j < first_order; ++j) modes.flexibility[range.first + count + j] = 0;
+    shape.rightCols(first_order) = damping.follow;
+    projection.topRows(count) = block.shape.transpose() * MatrixX(extract_block(model.mass, range));
+    projection.bottomRows(first_order) = damping.follow_projection;
+    modes.flexibility.segment(places.first + count, first_order).setZero();
     for (int i = 0; i < count; ++i) {
-      const int k = range.first + i;
+      const int k = places.first + i;
       const double square = block.square[i], a = 0.5 * damping.decay[i];
       modes.square[k] = square;
       modes.decay[k] = a;
@@ -204,9 +215,9 @@ ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
         modes.flexibility[k] = 1 / square;
       }
     }
-    modes.static_load.segment(range.first, count) = block.shape.transpose() * system.static_load.segment(range.first, size);
+    modes.static_load.segment(places.first, count) = block.shape.transpose() * system.static_load.segment(range.first, size);
     for (std::size_t i = 0; i < model.motions.size(); ++i) {
-      modes.motion_load[i].segment(range.first, count) = block.shape.transpose() * model.motion_load[i].segment(range.first, size);
+      modes.motion_load[i].segment(places.first, count) = block.shape.transpose() * model.motion_load[i].segment(range.first, size);
     }
     modes.rest.segment(range.first, size) = block.flexibility * system.static_load.segment(range.first, size);
     transposed.push_back(shape.transpose());
@@ -216,11 +227,10 @@ ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
     const Eigen::Index before = modes.massless_basis.cols();
     modes.massless_basis.conservativeResizeLike(MatrixX::Zero(n, before + block.massless.cols()));
     modes.massless_basis.block(range.first, before, size, block.massless.cols()) = block.massless;
-    blocks.push_back(std::move(block));
   }
-  modes.shape = BlockOperator(shapes, ranges);
-  modes.projection = BlockOperator(projections, ranges);
-  modes.shape_transposed = BlockOperator(transposed, ranges);
+  modes.shape = BlockOperator(shapes, ranges, modes.ranges);
+  modes.projection = BlockOperator(projections, modes.ranges, ranges);
+  modes.shape_transposed = BlockOperator(transposed, modes.ranges, ranges);
   modes.massless_flexibility = BlockOperator(flexibilities, ranges);
   find_contacts(system, blocks, modes);
   return modes;

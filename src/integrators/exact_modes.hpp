@@ -29,10 +29,11 @@ struct ModalState {
   VectorX x, y, f0, f1;  // [m sqrt(kg)], [m/s sqrt(kg)], [N/sqrt(kg)], [N/s/sqrt(kg)]
 };
 
-// Arrays by mode have `padded` entries. The modes of a structure stand in the places of its free DOFs; places without a mode
-// (massless DOFs) and the padding are modes that nothing moves.
+// Arrays by mode have `padded` entries. Those of a structure stand side by side in its range, slowest first, then motions of first order;
+// what fills the range up to whole SIMD registers are modes that nothing moves.
 struct ExactModes {
-  int dofs = 0, padded = 0, massless = 0;
+  int dofs = 0, padded = 0, massless = 0, moving = 0;  // moving: modes, without motions of first order
+  std::vector<BlockRange> ranges;     // of the structures
   VectorX square, decay;              // w^2 [1/s2], a [1/s]
   VectorX flexibility;                // 1 / w^2 of oscillators, 0 of the special ones
   VectorX damped;                     // sqrt(w^2 - a^2); 1 for the special ones
@@ -57,8 +58,8 @@ struct ExactModes {
   MatrixX velocity_jump;              // Phi Phi' H', free DOFs x pairs: of a unit impulse
   MatrixX massless_response;          // F H', free DOFs x pairs
 
-  // Damping ratio and circular frequency of a mode that damping ties to others; zeros for the others.
-  std::pair<double, double> complex_mode(int place) const;
+  // Damping ratio and circular frequency of a mode of a structure that damping ties to others; zeros for the others.
+  std::pair<double, double> complex_mode(int structure, int mode) const;
   int pairs() const { return static_cast<int>(compliant.size()); }
 };
 

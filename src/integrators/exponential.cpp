@@ -59,34 +59,29 @@ Exponential::Exponential(const AnalysisOptions& options, const System& system)
                                  "mass, or use scheme = \"event-split\" or \"moreau-jean\"",
                                  coupling.structure));
   }
-  padded_ = VectorX::Zero(modes.padded);
   flexibility_ = static_flexibility(modes);
-  modes.shape.multiply(VectorX(flexibility_.cwiseProduct(modes.static_load)), padded_);
-  scale_ = padded_.cwiseAbs().maxCoeff();
+  const auto largest_displacement = [&](const VectorX& modal) {
+    modes.shape.multiply(modal, displacement_);
+    return displacement_.cwiseAbs().maxCoeff();
+  };
+  scale_ = largest_displacement(flexibility_.cwiseProduct(modes.static_load));
   for (std::size_t i = 0; i < system.model.motions.size(); ++i) {
     double largest = 0;
     for (const double a : system.model.motions[i].acceleration) largest = std::max(largest, std::abs(a));
-    modes.shape.multiply(VectorX(largest * flexibility_.cwiseProduct(modes.motion_load[i])), padded_);
-    scale_ += padded_.cwiseAbs().maxCoeff();
+    scale_ += largest * largest_displacement(flexibility_.cwiseProduct(modes.motion_load[i]));
   }
   find_steps(system);
-  padded_.setZero();
 }
 
 void Exponential::project(Residual& r) {
-  const ExactModes& modes = flow_.modes();
-  padded_.head(modes.dofs) = r.force;
-  r.modal.setZero(modes.padded);
-  modes.shape_transposed.multiply(padded_, r.modal);
-  padded_.setZero();
+  flow_.modes().shape_transposed.multiply(r.force, r.modal);
 }
 
 void Exponential::evaluate(System& system, const VectorX& x, const VectorX& massless, const VectorX& committed, VectorX& trial) {
   const ExactModes& modes = flow_.modes();
   const MatrixX& N = modes.massless_basis;
-  modes.shape.multiply(x, padded_);
-  displacement_ = padded_.head(modes.dofs) + modes.rest - massless;
-  padded_.setZero();
+  modes.shape.multiply(x, displacement_);
+  displacement_ += modes.rest - massless;
   massless_ = massless;
   system.assembler.start_step(committed, trial);
   next_.massless.setZero(modes.dofs);
@@ -139,9 +134,8 @@ void Exponential::start(System& system, const State& committed) {
   massless_rate_ = VectorX::Zero(now_.massless.size());
   level_ = least_level_;
   // the first peak, from rest position and velocity
-  modes.shape.multiply(VectorX(flow_.modal().y.cwiseProduct(flexibility_.cwiseSqrt())), padded_);
-  peak_ = std::max(committed.displacement.cwiseAbs().maxCoeff(), padded_.cwiseAbs().maxCoeff());
-  padded_.setZero();
+  modes.shape.multiply(VectorX(flow_.modal().y.cwiseProduct(flexibility_.cwiseSqrt())), displacement_);
+  peak_ = std::max(committed.displacement.cwiseAbs().maxCoeff(), displacement_.cwiseAbs().maxCoeff());
   memory_ = 1;
   massless_stiffness_.resize(0, 0);
   follow_ = VectorX::Zero(modes.dofs);

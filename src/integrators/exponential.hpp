@@ -19,8 +19,8 @@ class Exponential : public Scheme {
   bool condenses_massless() const override { return true; }
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, w}; }
-  ModeResponse complex_mode(int mode) const override {
-    const auto [ratio, frequency] = flow_.modes().complex_mode(mode);
+  ModeResponse complex_mode(int structure, int mode) const override {
+    const auto [ratio, frequency] = flow_.modes().complex_mode(structure, mode);
     return {ratio, frequency};
   }
   long factorizations() const override { return 0; }
@@ -67,7 +67,7 @@ class Exponential : public Scheme {
   VectorX last_displacement_, last_velocity_;
   // work space
   Residual next_;
-  VectorX massless_, expected_massless_, follow_, history_, displacement_, nonlinear_force_, internal_, padded_;
+  VectorX massless_, expected_massless_, follow_, history_, displacement_, nonlinear_force_, internal_;
   ModalForce force_;
   FlowState before_;
   ModalState expected_;

@@ -33,12 +33,11 @@ void Exponential::find_steps(const System& system) {
   const ExactModes& modes = flow_.modes();
   mode_size_ = mode_share_ = VectorX::Zero(modes.padded);
   inverse_frequency_ = modes.square.cwiseMax(1.0).cwiseSqrt().cwiseInverse();
-  VectorX unit = mode_size_, linear(modes.dofs);
-  for (int k = 0; k < modes.dofs; ++k) {
+  VectorX unit = mode_size_, linear(modes.dofs), shape(modes.dofs);
+  for (int k = 0; k < modes.padded; ++k) {
     unit[k] = 1;
-    modes.shape.multiply(unit, padded_);
+    modes.shape.multiply(unit, shape);
     unit[k] = 0;
-    const VectorX shape = padded_.head(modes.dofs);
     mode_size_[k] = shape.cwiseAbs().maxCoeff();
     if (mode_size_[k] == 0 || modes.square[k] == 0) continue;
     system.assembler.linear_force(shape, linear);

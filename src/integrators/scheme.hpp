@@ -51,10 +51,10 @@ class Scheme {
   };
   virtual ModeResponse mode_response(double w, double xi, double h) const = 0;
 
-  // Of the complex mode into which damping turns the undamped mode at place `mode` (first DOF of its structure + its number), in closed form;
+  // Of the complex mode into which damping turns a structure's undamped mode (its number, from the slowest), in closed form;
   // a ratio of 1 where it creeps, no frequency where damping ties it to no other or the scheme does not know.
-  virtual ModeResponse complex_mode(int mode) const {
-    (void)mode;
+  virtual ModeResponse complex_mode(int structure, int mode) const {
+    (void)structure, (void)mode;
     return {0, 0};
   }
 

@@ -195,7 +195,7 @@ Summary Simulation::outline() const {
       const Scheme::ModeResponse response = scheme_->mode_response(w, ratio, options_.dt);
       summary.modes.push_back({name, modes_[s].names[static_cast<std::size_t>(i)], w / (2 * pi), ratio,
                                response.damping_ratio, response.circular_frequency / (2 * pi)});
-      const Scheme::ModeResponse tied = scheme_->complex_mode(model_.structures[s].first_dof + i);
+      const Scheme::ModeResponse tied = scheme_->complex_mode(static_cast<int>(s), i);
       summary.modes.back().complex_frequency = tied.circular_frequency / (2 * pi);
       summary.modes.back().complex_damping = tied.damping_ratio;
     }
