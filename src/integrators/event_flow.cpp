@@ -62,8 +62,13 @@ void EventFlow::start(const System& system, const State& committed) {
 
 void EventFlow::find_load(const System& system, double time, double length, VectorX& f0, VectorX& f1) const {
   const auto& motions = system.model.motions;
-  f0 = modes_.static_load;
-  f1.setZero(modes_.padded);
+  if (force_.value.size() > 0) {
+    f0 = modes_.static_load - force_.value - (time - force_.time) * force_.slope;
+    f1 = -force_.slope;
+  } else {
+    f0 = modes_.static_load;
+    f1.setZero(modes_.padded);
+  }
   for (std::size_t i = 0; i < motions.size(); ++i) {
     const GroundMotion& motion = motions[i];
     // the samples around the middle of the piece: its ends may round to either side of a sample
@@ -73,10 +78,12 @@ void EventFlow::find_load(const System& system, double time, double length, Vect
     f0 += (motion.acceleration[k] + slope * (time - motion.start - static_cast<double>(k) * motion.dt)) * modes_.motion_load[i];
     f1 += slope * modes_.motion_load[i];
   }
-  if (force_.value.size() > 0) {
-    f0 -= force_.value + (time - force_.time) * force_.slope;
-    f1 -= force_.slope;
-  }
+}
+
+void EventFlow::set_force(const VectorX& value, const VectorX& slope, double time) {
+  force_.value = value;
+  force_.slope = slope;
+  force_.time = time;
 }
 
 void EventFlow::set_load(const System& system, double time, double length) {
@@ -85,8 +92,12 @@ void EventFlow::set_load(const System& system, double time, double length) {
   std::swap(state_.f1, slope_);
 }
 
-std::vector<double> EventFlow::cuts(const System& system, double time, double h) const {
-  std::vector<double> cuts;
+const std::vector<double>& EventFlow::cuts(const System& system, double time, double h) {
+  if (time == cut_time_ && h == cut_length_) return cuts_;
+  cut_time_ = time;
+  cut_length_ = h;
+  std::vector<double>& cuts = cuts_;
+  cuts.clear();
   for (const GroundMotion& motion : system.model.motions) {
     if (motion.acceleration.empty()) continue;
     const double close = 1e-9 * std::min(motion.dt, h);
@@ -222,7 +233,7 @@ void EventFlow::advance(const System& system, double time, double length, StepRe
   double at = 0;
   for (int events = 0; at < end; ++events) {
     if (events > most_events) refuse_to_go_on(system, time + at, at / most_events);
-    const FlightEvent event = flight_.find(state_, contact_, end - at, at == 0, disturbed_);
+    const FlightEvent event = flight_.find(state_, contact_, gap_, rate_, end - at, at == 0, disturbed_);
     disturbed_ = false;
     const double s = event.time;
     result.active_pairs = std::max(result.active_pairs, static_cast<int>(contact_.closed.size()));
@@ -239,6 +250,11 @@ void EventFlow::advance(const System& system, double time, double length, StepRe
     if (modes_.pairs() == 0) continue;
     gap_ = flight_.end_gap();
     rate_ = flight_.end_rate();
+    if (event.far) {
+      result.least_gap = std::min(result.least_gap, gap_.minCoeff());
+      contact_.constant = modes_.gap_offset;
+      continue;
+    }
     for (int c = 0; c < modes_.pairs(); ++c) {
       const auto i = static_cast<std::size_t>(c);
       if (std::binary_search(contact_.closed.begin(), contact_.closed.end(), c)) continue;

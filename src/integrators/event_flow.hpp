@@ -15,7 +15,7 @@ struct FlowState {
   double largest_approach = 0;
 };
 
-// What acts in the modes beside the loads: -(value + slope (t - time)), t counted from `time`; empty for nothing.
+// What acts in the modes beside the loads: -(value + slope (t - time)); empty for nothing.
 struct ModalForce {
   VectorX value, slope;  // [N/sqrt(kg)], [N/s/sqrt(kg)]
   double time = 0;       // [s]
@@ -33,7 +33,9 @@ class EventFlow {
   void copy_to(FlowState& state) const;
   void go_back(const FlowState& state);
 
-  void set_force(const ModalForce& force) { force_ = force; }
+  void set_force(const VectorX& value, const VectorX& slope, double time);
+  void set_force_slope(const VectorX& slope) { force_.slope = slope; }
+  void clear_force() { force_ = {}; }
   // Takes displacement and velocity of `committed` in anew. Throws InputError where a pair without compliance overlaps.
   void start(const System& system, const State& committed);
   // Moves on by h [s]; adds impacts, jumps and energies to `result`, work against set_force() as strain. `starting`: pairs that touch
@@ -57,8 +59,8 @@ class EventFlow {
   // The load of the part of the step that begins at `time`.
   void set_load(const System& system, double time, double length);
   void find_load(const System& system, double time, double length, VectorX& f0, VectorX& f1) const;
-  // Times in (0, h] after `time` where the step is cut: samples of the motions, and its end.
-  std::vector<double> cuts(const System& system, double time, double h) const;
+  // Times in (0, h] after `time` where the step is cut: samples of the motions, and its end. Until asked for others.
+  const std::vector<double>& cuts(const System& system, double time, double h);
   void advance(const System& system, double time, double length, StepResult& result);
   [[noreturn]] void refuse_to_go_on(const System& system, double time, double interval) const;
   void add_energy(double time, double s, StepResult& result);
@@ -89,6 +91,8 @@ class EventFlow {
   bool disturbed_ = true;
   ModalForce force_;
   VectorX slope_;                     // room for set_load()
+  std::vector<double> cuts_;          // of the step `cut_length_` long from `cut_time_` on
+  double cut_time_ = 0, cut_length_ = -1;
   ModalState piece_;                  // room for glide()
   VectorX glide_gap_, glide_rate_;
 };

@@ -66,6 +66,22 @@ FlightEnergy energy_target(int padded, double s, const FlightArrays& m, const do
   return {hn::GetLane(hn::SumOfLanes(tag, work)), 0.5 * hn::GetLane(hn::SumOfLanes(tag, strain)), 0.5 * hn::GetLane(hn::SumOfLanes(tag, kinetic))};
 }
 
+ModalSize size_target(int padded, const FlightArrays& m, const double* damped) {
+  const hn::ScalableTag<double> tag;
+  const auto width = static_cast<int>(hn::Lanes(tag));
+  const auto load = [&](const double* array, int i) { return hn::LoadU(tag, array + i); };
+  auto energy = hn::Zero(tag), square = energy;
+  for (int i = 0; i < padded; i += width) {
+    const auto w2 = load(m.square, i), a = load(m.decay, i), flexibility = load(m.flexibility, i), x = load(m.x, i);
+    const auto slope = hn::Mul(load(m.f1, i), flexibility);
+    const auto u = hn::Sub(x, hn::Mul(hn::NegMulAdd(hn::Add(a, a), slope, load(m.f0, i)), flexibility));
+    const auto v = hn::Div(hn::MulAdd(a, u, hn::Sub(load(m.y, i), slope)), load(damped, i));
+    energy = hn::MulAdd(w2, hn::MulAdd(u, u, hn::Mul(v, v)), energy);
+    square = hn::MulAdd(x, x, square);
+  }
+  return {hn::GetLane(hn::SumOfLanes(tag, energy)), hn::GetLane(hn::SumOfLanes(tag, square))};
+}
+
 void gaps_target(int padded, int pairs, const double* G, const double* x, const double* y, double* gap, double* rate) {
   const hn::ScalableTag<double> tag;
   const auto width = static_cast<int>(hn::Lanes(tag));
@@ -92,6 +108,7 @@ namespace nsframe {
 HWY_EXPORT(propagate_target);
 HWY_EXPORT(step_target);
 HWY_EXPORT(energy_target);
+HWY_EXPORT(size_target);
 HWY_EXPORT(gaps_target);
 
 void propagate_oscillators(int padded, double s, const double* square, const double* decay, const double* damped, const double* x,
@@ -106,6 +123,10 @@ void apply_step(int padded, const StepArrays& step, const double* x, const doubl
 
 FlightEnergy sum_energy(int padded, double s, const FlightArrays& flight, const double* load0, const double* load1) {
   return HWY_DYNAMIC_DISPATCH(energy_target)(padded, s, flight, load0, load1);
+}
+
+ModalSize modal_size(int padded, const FlightArrays& flight, const double* damped) {
+  return HWY_DYNAMIC_DISPATCH(size_target)(padded, flight, damped);
 }
 
 void multiply_gaps(int padded, int pairs, const double* G, const double* x, const double* y, double* gap, double* rate) {

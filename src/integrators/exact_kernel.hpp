@@ -21,10 +21,17 @@ void apply_step(int padded, const StepArrays& step, const double* x, const doubl
 struct FlightEnergy {
   double work = 0, strain = 0, kinetic = 0;
 };
-struct FlightArrays {
+struct FlightArrays {  // *_after: only where they are asked for
   const double *square, *decay, *flexibility, *x, *y, *f0, *f1, *x_after, *y_after;
 };
 FlightEnergy sum_energy(int padded, double s, const FlightArrays& flight, const double* load0, const double* load1);
+
+// What the free parts u of oscillators can do from a state on, u = x less the particular solution: the sum of w^2 A^2 over their amplitudes A,
+// and the sum of x^2.
+struct ModalSize {
+  double energy = 0, square = 0;
+};
+ModalSize modal_size(int padded, const FlightArrays& flight, const double* damped);
 
 // gap = G x, rate = G y; G: pairs x padded, by rows.
 void multiply_gaps(int padded, int pairs, const double* G, const double* x, const double* y, double* gap, double* rate);

@@ -146,6 +146,14 @@ void Propagator::derivatives(const ModalState& state, Eigen::Matrix<double, Eige
   coupled_.derivatives(state, out);
 }
 
+ModalSize Propagator::size(const ModalState& state) const {
+  const ExactModes& m = modes_;
+  return modal_size(m.padded,
+                    {m.square.data(), m.decay.data(), m.flexibility.data(), state.x.data(), state.y.data(), state.f0.data(), state.f1.data(), nullptr,
+                     nullptr},
+                    m.damped.data());
+}
+
 void Propagator::bound_fourth(const ModalState& state, VectorX& pairs) {
   VectorX& bound = mode_bound_;
   // u = x - x_p decays: |u| <= amplitude, and four derivatives multiply the amplitude by w^4

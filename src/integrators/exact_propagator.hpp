@@ -36,6 +36,8 @@ class Propagator {
   void derivatives(const ModalState& state, Eigen::Matrix<double, Eigen::Dynamic, 7>& out) const;
   // Second derivatives under the state's load.
   VectorX accelerations(const ModalState& state) const;
+  // Of oscillators alone.
+  ModalSize size(const ModalState& state) const;
   // For every pair a bound on |d4 g / dt4| from begin() on, while the load keeps its slope.
   void bound_fourth(const ModalState& state, VectorX& bound);
 

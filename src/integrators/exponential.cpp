@@ -122,7 +122,7 @@ void Exponential::evaluate(System& system, const VectorX& x, const VectorX& mass
 
 void Exponential::start(System& system, const State& committed) {
   const ExactModes& modes = flow_.modes();
-  flow_.set_force({});
+  flow_.clear_force();
   flow_.start(system, committed);
   history_ = committed.history;
   stiffness_.multiply(committed.displacement, now_.force);
@@ -146,8 +146,7 @@ void Exponential::start(System& system, const State& committed) {
 
 bool Exponential::advance(System& system, double time, double s, bool starting, const VectorX& committed, VectorX& trial,
                           StepResult& result) {
-  force_ = {now_.modal, modal_rate_, time};
-  flow_.set_force(force_);
+  flow_.set_force(now_.modal, modal_rate_, time);
   expected_massless_ = now_.massless + s * massless_rate_;
   if (!starting && flow_.glide(system, time, s, expected_)) {
     evaluate(system, expected_.x, expected_massless_, committed, trial);
@@ -165,8 +164,7 @@ bool Exponential::advance(System& system, double time, double s, bool starting, 
   }
   modal_rate_ = (next_.modal - now_.modal) / s;
   massless_rate_ = (next_.massless - now_.massless) / s;
-  force_.slope = modal_rate_;
-  flow_.set_force(force_);
+  flow_.set_force_slope(modal_rate_);
   flow_.travel(system, time, s, starting, result);
   const double massless_work = -flow_.modes().rest.dot(next_.force - now_.force);
   result.strain += massless_work;

@@ -68,7 +68,6 @@ class Exponential : public Scheme {
   // work space
   Residual next_;
   VectorX massless_, expected_massless_, follow_, history_, displacement_, nonlinear_force_, internal_;
-  ModalForce force_;
   FlowState before_;
   ModalState expected_;
   StepResult tried_;

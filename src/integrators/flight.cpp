@@ -12,8 +12,27 @@ namespace {
 
 constexpr double series_angle = 0.05;  // w s up to which a return of a bounce is found from derivatives
 constexpr int most_halvings = 60;
+constexpr double near = 1e-8;          // of the size of what a gap is made of
 
 }  // namespace
+
+Flight::Flight(const ExactModes& modes, Propagator& propagator, SustainedContact& sustained)
+    : modes_(modes), propagator_(propagator), sustained_(sustained) {
+  if (!modes.special.empty() || !modes.couplings.empty() || modes.pairs() == 0) return;
+  far_factor_ = (modes.gap.cwiseAbs2() * modes.square.cwiseAbs2().cwiseProduct(modes.square)).cwiseSqrt();
+  row_size_ = modes.gap.rowwise().norm();
+}
+
+bool Flight::stays_far(const VectorX& gap, const VectorX& rate, double length) const {
+  const ModalSize size = propagator_.size(*state_);
+  const double fourth = std::sqrt(size.energy) * std::pow(length, 4) / 384, x = std::sqrt(size.square);
+  for (int c = 0; c < modes_.pairs(); ++c) {
+    // the cubic through the ends' values and slopes, and what the gap may differ from it
+    const double least = std::min(gap[c], finish_.gap[c]) - 0.25 * length * std::max(std::abs(rate[c]), std::abs(finish_.rate[c])) - fourth * far_factor_[c];
+    if (!(least > near * (std::abs(contact_->constant[c]) + row_size_[c] * x))) return false;
+  }
+  return true;
+}
 
 void Flight::bound(double length, bool disturbed) {
   if (disturbed || !bound_holds_ || !contact_->closed.empty()) {
@@ -156,7 +175,8 @@ FlightEvent Flight::search(const Sample& a, const Sample& b, int depth) {
   return event;
 }
 
-FlightEvent Flight::find(const ModalState& state, const ContactState& contact, double length, bool regular, bool disturbed) {
+FlightEvent Flight::find(const ModalState& state, const ContactState& contact, const VectorX& gap, const VectorX& rate, double length, bool regular,
+                         bool disturbed) {
   state_ = &state;
   contact_ = &contact;
   have_derivatives_ = false;
@@ -168,25 +188,9 @@ FlightEvent Flight::find(const ModalState& state, const ContactState& contact, d
     return event;
   }
   forces_.pairs.clear();
-  skip_.assign(static_cast<std::size_t>(pairs), false);
-  if (!contact.closed.empty()) {
-    event.time = std::min(length, sustained_.panel());
-    forces_ = sustained_.solve(state, contact.constant, contact.closed);
-    for (const int c : contact.closed) skip_[static_cast<std::size_t>(c)] = true;
-    find_openings(event);
-  }
-  bound(event.time, disturbed);
-  follow_touching(event);
-  Sample &start = start_, &finish = finish_;
-  for (Sample* sample : {&start, &finish}) {
+  for (Sample* sample : {&start_, &finish_}) {
     sample->gap.resize(pairs);
     sample->rate.resize(pairs);
-  }
-  multiply_gaps(modes_.padded, pairs, modes_.gap.data(), state.x.data(), state.y.data(), start.gap.data(), start.rate.data());
-  start.gap += contact.constant;
-  add_compliance(0, start.gap, start.rate);
-  for (int c = 0; c < pairs; ++c) {
-    if (contact.touching[static_cast<std::size_t>(c)]) start.gap[c] = 0;
   }
   const auto move_to = [&](double s) {
     if (!forces_.empty()) {
@@ -196,13 +200,39 @@ FlightEvent Flight::find(const ModalState& state, const ContactState& contact, d
     } else {
       propagator_.move(state, s, end_);
     }
-    multiply_gaps(modes_.padded, pairs, modes_.gap.data(), end_.x.data(), end_.y.data(), finish.gap.data(), finish.rate.data());
-    finish.gap += contact.constant;
-    add_compliance(s, finish.gap, finish.rate);
-    finish.time = s;
+    multiply_gaps(modes_.padded, pairs, modes_.gap.data(), end_.x.data(), end_.y.data(), finish_.gap.data(), finish_.rate.data());
+    finish_.gap += contact.constant;
+    add_compliance(s, finish_.gap, finish_.rate);
+    finish_.time = s;
   };
-  move_to(event.time);
-  const FlightEvent earlier = search(start, finish, 0);
+  const bool open = contact.closed.empty() && std::none_of(contact.touching.begin(), contact.touching.end(), [](bool touches) { return touches; });
+  bool moved = false;
+  if (open && far_factor_.size() > 0) {
+    move_to(length);
+    if (stays_far(gap, rate, length)) {
+      bound_holds_ = bound_holds_ && !disturbed;
+      event.far = true;
+      return event;
+    }
+    moved = true;
+  }
+  skip_.assign(static_cast<std::size_t>(pairs), false);
+  if (!contact.closed.empty()) {
+    event.time = std::min(length, sustained_.panel());
+    forces_ = sustained_.solve(state, contact.constant, contact.closed);
+    for (const int c : contact.closed) skip_[static_cast<std::size_t>(c)] = true;
+    find_openings(event);
+  }
+  bound(event.time, disturbed);
+  follow_touching(event);
+  multiply_gaps(modes_.padded, pairs, modes_.gap.data(), state.x.data(), state.y.data(), start_.gap.data(), start_.rate.data());
+  start_.gap += contact.constant;
+  add_compliance(0, start_.gap, start_.rate);
+  for (int c = 0; c < pairs; ++c) {
+    if (contact.touching[static_cast<std::size_t>(c)]) start_.gap[c] = 0;
+  }
+  if (!moved) move_to(event.time);
+  const FlightEvent earlier = search(start_, finish_, 0);
   if (earlier.kind != FlightEvent::Kind::none) {
     event = earlier;
     move_to(event.time);

@@ -12,6 +12,7 @@ struct FlightEvent {
   double time = 0;  // since the start of the flight [s]
   Kind kind = Kind::none;
   int pair = -1;
+  bool far = false;  // no pair came near: gaps are large against rounding
 };
 
 // What contact is at the start of a flight.
@@ -23,19 +24,19 @@ struct ContactState {
 
 class Flight {
  public:
-  Flight(const ExactModes& modes, Propagator& propagator, SustainedContact& sustained)
-      : modes_(modes), propagator_(propagator), sustained_(sustained) {}
+  Flight(const ExactModes& modes, Propagator& propagator, SustainedContact& sustained);
 
-  // The first event after `state` within `length`, and the state there in end(). Without one, the flight may also be cut
-  // short: `time` says where. `regular`: the length is one of few that come again and again. `disturbed`: impulses or
-  // loads have changed the motion since the last flight ended.
-  FlightEvent find(const ModalState& state, const ContactState& contact, double length, bool regular, bool disturbed);
+  // The first event after `state`, where gaps and their rates are these, within `length`, and the state there in end(). Without one,
+  // the flight may also be cut short: `time` says where. `regular`: the length is one of few that come again and again. `disturbed`:
+  // impulses or loads have changed the motion since the last flight ended.
+  FlightEvent find(const ModalState& state, const ContactState& contact, const VectorX& gap, const VectorX& rate, double length, bool regular,
+                   bool disturbed);
 
   ModalState& end() { return end_; }
   const VectorX& end_gap() const { return finish_.gap; }
   const VectorX& end_rate() const { return finish_.rate; }
   const ContactForces& forces() const { return forces_; }
-  // Gap rounding counts as zero up to here [m].
+  // Gap rounding counts as zero up to here [m], of a flight that was not far.
   double tolerance(int pair) const { return tolerance_[pair]; }
   long evaluations() const { return evaluations_; }
 
@@ -47,6 +48,8 @@ class Flight {
     double time = 0;
     VectorX gap, rate;
   };
+  // Whether no pair can have come near on the way from these gaps to those of finish_, by bounds that cost one pass over the modes.
+  bool stays_far(const VectorX& gap, const VectorX& rate, double length) const;
   void bound(double length, bool disturbed);
   void evaluate(double s, Sample& sample);
   void add_compliance(double s, VectorX& gap, VectorX& rate) const;
@@ -66,6 +69,7 @@ class Flight {
   ModalState end_, probe_;
   Sample start_, finish_;
   VectorX fourth_, tolerance_, rounding_, rate_rounding_, size_, rate_size_;
+  VectorX far_factor_, row_size_;  // of a pair's gap: fourth derivative by sqrt(energy), its size by |x|; none where stays_far() can't tell
   std::vector<bool> skip_;        // closed, or certain to stay open
   Eigen::Matrix<double, Eigen::Dynamic, 7> mode_derivatives_;
   bool have_derivatives_ = false;
