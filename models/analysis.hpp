@@ -19,6 +19,7 @@ struct AnalysisOptions {
   std::string scheme_reason;           // when the scene names none, but gives options of one
   double dt = 1e-3;                    // [s]
   double accuracy = 0;                 // of scheme exponential: parts of dt by an error estimate, relative to the peak; 0: dt as it is
+  double highest_frequency = 0;        // [Hz] of exact and exponential: modes above follow their forces at once; 0: none does
   double duration = 0;                 // [s]; 0: the length of the longest motion
   double theta = 1.0;                  // [1/2, 1]; the paper uses 1
   std::string integrator = "theta";    // of event-split between impacts: name in its registry (integrators/flight_methods.cpp)

@@ -34,6 +34,18 @@ System::System(const Model& the_model, int threads)
   damping.viscous = model.viscous_damping;
   for (const BlockRange& block : assembler.blocks()) damping.modal.emplace_back(block.size(), 0);
   member_load = assembler.member_loads(static_load, assembler.virgin_history()).norm();
+  half_mass_ = 0.5 * mass().diagonal();
+  for (int j = 0; j < mass().outerSize(); ++j) {
+    for (SparseMatrix::InnerIterator it(mass(), j); it; ++it) {
+      if (it.row() > j && it.value() != 0) mass_couplings_.push_back({static_cast<int>(it.row()), j, it.value()});
+    }
+  }
+}
+
+double System::kinetic_energy(const VectorX& velocity) const {
+  double energy = half_mass_.dot(velocity.cwiseAbs2());
+  for (const MassCoupling& m : mass_couplings_) energy += m.value * velocity[m.i] * velocity[m.j];
+  return energy;
 }
 
 double System::negligible_force() const { return negligible_acceleration * mass().diagonal().norm() + member_load; }

@@ -50,8 +50,19 @@ class System {
   // 1/2 (v + sum s_k d_k')' M (v + sum s_k d_k') less 1/2 v' M v [J].
   double support_kinetic_energy(const VectorX& velocity, double time) const;
 
+  // 1/2 v' M v [J].
+  double kinetic_energy(const VectorX& velocity) const;
+
   // Integral of the loads over [start, end], exact for the piecewise linear ground motion [N s].
   void load_impulse(double start, double end, VectorX& impulse) const;
+
+ private:
+  struct MassCoupling {
+    int i, j;
+    double value;
+  };
+  VectorX half_mass_;                      // half the diagonal of M
+  std::vector<MassCoupling> mass_couplings_;  // below it
 };
 
 }  // namespace nsframe

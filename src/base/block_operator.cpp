@@ -47,7 +47,7 @@ StoredEntries BlockOperator::entries() const {
 }
 
 void BlockOperator::multiply(const VectorX& x, VectorX& y) const {
-  y.resize(rows_);
+  if (y.size() < rows_) y.resize(rows_);
   parallel_for(static_cast<int>(blocks_.size()), threads_, [&](int i) {
     const Block& block = blocks_[static_cast<std::size_t>(i)];
     const double* const from = x.data() + block.columns.first;
@@ -62,8 +62,8 @@ void BlockOperator::multiply(const VectorX& x, VectorX& y) const {
 }
 
 void BlockOperator::multiply(const VectorX& x, const VectorX& x2, VectorX& y, VectorX& y2) const {
-  y.resize(rows_);
-  y2.resize(rows_);
+  if (y.size() < rows_) y.resize(rows_);
+  if (y2.size() < rows_) y2.resize(rows_);
   for (const Block& block : blocks_) {
     const double *const from = x.data() + block.columns.first, *const from2 = x2.data() + block.columns.first;
     double *const to = block.padded.data(), *const to2 = block.padded2.data();

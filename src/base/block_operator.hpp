@@ -26,7 +26,7 @@ class BlockOperator {
   BlockOperator(const std::vector<MatrixX>& matrices, const std::vector<BlockRange>& blocks) : BlockOperator(matrices, blocks, blocks) {}
   BlockOperator(const std::vector<MatrixX>& matrices, const std::vector<BlockRange>& rows, const std::vector<BlockRange>& columns);
 
-  // y = A x, y of rows() entries; x and y may not be the same.
+  // y = A x; entries of y beyond the blocks' rows stay as they are; x and y may not be the same.
   void multiply(const VectorX& x, VectorX& y) const;
   // y = A x and y2 = A x2, for less than twice the time of one.
   void multiply(const VectorX& x, const VectorX& x2, VectorX& y, VectorX& y2) const;

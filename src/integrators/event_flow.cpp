@@ -16,15 +16,21 @@ namespace {
 constexpr int most_events = 1000000;      // between two kept results: some seconds of work
 constexpr double time_quantum = 0x1p-40;  // of dt: lengths of pieces are multiples, so that their coefficients recur
 
+double highest_mode(const AnalysisOptions& options) {
+  return options.highest_frequency > 0 ? 2 * pi * options.highest_frequency : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
-EventFlow::EventFlow(const AnalysisOptions& options, ExactModes modes)
-    : options_(options), modes_(std::move(modes)), propagator_(modes_), sustained_(modes_, propagator_), flight_(modes_, propagator_, sustained_) {
+EventFlow::EventFlow(const AnalysisOptions& options, const System& system, const SparseMatrix& stiffness)
+    : options_(options), highest_(highest_mode(options)), modes_(exact_modes(system, stiffness, highest_)), propagator_(modes_), sustained_(modes_, propagator_), flight_(modes_, propagator_, sustained_) {
   const int pairs = modes_.pairs();
   contact_.touching.assign(static_cast<std::size_t>(pairs), false);
   contact_.constant = modes_.gap_offset;
   contact_impulse_ = step_impulse_ = VectorX::Zero(pairs);
 }
+
+Scheme::LeftOut EventFlow::left_out() const { return {modes_.left_out, modes_.kept_mass.size() > 0 ? modes_.kept_mass.minCoeff() : 1}; }
 
 void EventFlow::start(const System& system, const State& committed) {
   modes_.projection.multiply(committed.displacement, state_.x);
@@ -166,6 +172,13 @@ bool EventFlow::glide(const System& system, double time, double h, ModalState& e
   glide_rate_.resize(pairs);
   multiply_gaps(modes_.padded, pairs, modes_.gap.data(), end.x.data(), end.y.data(), glide_gap_.data(), glide_rate_.data());
   return ((glide_gap_ + contact_.constant - h * glide_rate_.cwiseAbs()).array() > 0).all();
+}
+
+void EventFlow::add_contact_load(VectorX& load) const {
+  const ContactForces& forces = flight_.forces();
+  for (std::size_t k = 0; k < forces.pairs.size(); ++k) {
+    load += SustainedContact::value(forces, k, flight_.end_time()) * modes_.gap.row(forces.pairs[k]).transpose();
+  }
 }
 
 void EventFlow::write(VectorX& displacement, VectorX& velocity) {
@@ -321,6 +334,11 @@ std::vector<std::string> EventFlow::describe() const {
   std::vector<std::string> lines;
   lines.push_back(fmt::format("natural modes: {}{}", modes_.moving,
                               modes_.massless > 0 ? fmt::format(", {} DOFs without mass condensed", modes_.massless) : ""));
+  if (modes_.left_out > 0) {
+    const std::string mass = modes_.kept_mass.size() > 0 ? fmt::format("; the others hold {:.1f} % of the mass that the motion shakes", 100 * left_out().kept_mass) : "";
+    lines.push_back(fmt::format("{} modes above {:g} Hz left out of motion and contact: they follow static loads and what yields at once{}", modes_.left_out,
+                                options_.highest_frequency, mass));
+  }
   for (const DampingCoupling& coupling : modes_.couplings) {
     const auto first_order = coupling.rate.size();
     lines.push_back(fmt::format("damping ties {} modes of structure '{}' together{}: complex modes, condition {:.3g}", coupling.square.size(), coupling.structure,

@@ -23,11 +23,15 @@ struct ModalForce {
 
 class EventFlow {
  public:
-  EventFlow(const AnalysisOptions& options, ExactModes modes);
+  // With the modes under a symmetric `stiffness`, up to the options' highest frequency.
+  EventFlow(const AnalysisOptions& options, const System& system, const SparseMatrix& stiffness);
   EventFlow(const EventFlow&) = delete;
   EventFlow& operator=(const EventFlow&) = delete;
 
   const ExactModes& modes() const { return modes_; }
+  Scheme::LeftOut left_out() const;
+  // w, or 0 when such a mode is left out [rad/s].
+  double kept_frequency(double w) const { return w <= highest_ ? w : 0; }
   const ModalState& modal() const { return state_; }
   const VectorX& gap() const { return gap_; }
   void copy_to(FlowState& state) const;
@@ -45,6 +49,9 @@ class EventFlow {
   // The modes after h [s], where no pair may touch on the way, into `end`; the flow itself stays where it is. false, and nothing else,
   // where a pair might, or where damping ties modes together.
   bool glide(const System& system, double time, double h, ModalState& end);
+
+  // Adds what the sustained contacts of the last flight did to the modes at its end [N/sqrt(kg)].
+  void add_contact_load(VectorX& load) const;
 
   // Of the pairs since clear_impulse() [N s].
   const VectorX& impulse() const { return step_impulse_; }
@@ -78,6 +85,7 @@ class EventFlow {
   double rate_noise(int pair) const;
 
   AnalysisOptions options_;
+  double highest_;                      // circular frequency of the modes that are kept [rad/s]
   ExactModes modes_;
   Propagator propagator_;
   SustainedContact sustained_;

@@ -21,7 +21,7 @@ const System& linear_only(const System& system, const Location& at) {
 }  // namespace
 
 Exact::Exact(const AnalysisOptions& options, const System& system)
-    : flow_(options, exact_modes(linear_only(system, options.scheme_at), system.assembler.tangent())) {}
+    : flow_(options, linear_only(system, options.scheme_at), system.assembler.tangent()) {}
 
 void Exact::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result = StepResult{};

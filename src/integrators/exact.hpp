@@ -14,7 +14,8 @@ class Exact : public Scheme {
   std::string name() const override { return "exact"; }
   bool condenses_massless() const override { return true; }
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
-  ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, w}; }
+  ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, flow_.kept_frequency(w)}; }
+  LeftOut left_out() const override { return flow_.left_out(); }
   ModeResponse complex_mode(int structure, int mode) const override {
     const auto [ratio, frequency] = flow_.modes().complex_mode(structure, mode);
     return {ratio, frequency};

@@ -5,10 +5,12 @@
 
 namespace nsframe {
 
-// Modes of one structure: columns of shape (n x modes); basis of what has no mass, with its flexibility.
+// Modes of one structure: columns of shape (n x modes); basis of what has no mass, with its flexibility; modes that are left out.
 struct BlockModes {
   VectorX square;
   MatrixX shape, massless, flexibility;
+  VectorX left_out_square = {};
+  MatrixX left_out = {};
 };
 
 struct BlockDamping {

@@ -69,6 +69,20 @@ BlockModes solve_block(const MatrixX& stiffness, const MatrixX& mass, bool may_m
   return modes;
 }
 
+void leave_out(double highest, BlockModes& modes) {
+  Eigen::Index kept = 0;
+  while (kept < modes.square.size() && modes.square[kept] <= highest * highest) ++kept;
+  modes.left_out_square = modes.square.tail(modes.square.size() - kept).eval();
+  modes.left_out = modes.shape.rightCols(modes.square.size() - kept).eval();
+  modes.square = modes.square.head(kept).eval();
+  modes.shape = modes.shape.leftCols(kept).eval();
+}
+
+// Phi w^-2 Phi' of the modes left out.
+MatrixX left_out_flexibility(const BlockModes& modes) {
+  return modes.left_out * modes.left_out_square.cwiseInverse().asDiagonal() * modes.left_out.transpose();
+}
+
 // What contact pairs see of the modes.
 void find_contacts(const System& system, const std::vector<BlockModes>& blocks, ExactModes& modes) {
   const Contacts& contacts = system.contacts();
@@ -99,7 +113,8 @@ void find_contacts(const System& system, const std::vector<BlockModes>& blocks, 
     const bool compliant = modes.compliance(c, c) > 1e-12 * flexible;
     modes.compliant[static_cast<std::size_t>(c)] = compliant;
     if (!compliant && modes.delassus(c, c) <= 0) {
-      throw InputError(fmt::format("error: neither side of contact pair '{}' can move", contacts.pairs[static_cast<std::size_t>(c)].name));
+      throw InputError(fmt::format("error: neither side of contact pair '{}' can move{}", contacts.pairs[static_cast<std::size_t>(c)].name,
+                                   modes.left_out > 0 ? " by modes up to analysis.highest_frequency" : ""));
     }
     if (!compliant) {
       modes.compliance.row(c).setZero();
@@ -146,7 +161,7 @@ std::pair<double, double> ExactModes::complex_mode(int structure, int mode) cons
   return {0, 0};
 }
 
-ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
+ExactModes exact_modes(const System& system, const SparseMatrix& stiffness, double highest) {
   const Model& model = system.model;
   const int n = model.dofs.size();
   const std::vector<BlockRange>& ranges = system.assembler.blocks();
@@ -162,6 +177,7 @@ ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
     BlockModes block = size == 0                    ? BlockModes{VectorX(0), MatrixX(0, 0), MatrixX(0, 0), MatrixX(0, 0)}
                        : size <= long_double_limit ? solve_block<long double>(K, M, structure.may_move_freely)
                                                    : solve_block<double>(K, M, structure.may_move_freely);
+    leave_out(highest, block);
     MatrixX C(extract_block(system.damping.viscous, ranges[b]));
     C += system.damping.modal[b] * system.damping.modal[b].transpose();
     dampings.push_back(block_damping(system, structure, block, K, C, H.middleCols(ranges[b].first, size)));
@@ -175,6 +191,8 @@ ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
   modes.static_load = VectorX::Zero(modes.padded);
   modes.motion_load.assign(model.motions.size(), VectorX::Zero(modes.padded));
   modes.rest = VectorX::Zero(n);
+  VectorX shaken = VectorX::Zero(static_cast<Eigen::Index>(model.motions.size()));
+  modes.kept_mass = shaken;
   std::vector<MatrixX> shapes, projections, transposed, flexibilities;
   for (std::size_t b = 0; b < ranges.size(); ++b) {
     const BlockRange &range = ranges[b], &places = modes.ranges[b];
@@ -182,8 +200,11 @@ ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
     const BlockModes& block = blocks[b];
     BlockDamping& damping = dampings[b];
     const auto count = static_cast<int>(block.square.size()), first_order = static_cast<int>(damping.follow.cols());
-    modes.massless += size - count;
+    const auto left_out = static_cast<int>(block.left_out_square.size());
+    modes.massless += size - count - left_out;
     modes.moving += count;
+    modes.left_out += left_out;
+    const MatrixX flexibility = block.flexibility + left_out_flexibility(block);
     std::vector<bool> coupled(static_cast<std::size_t>(count + first_order), false);
     for (DampingCoupling& coupling : damping.couplings) {
       modes.undamped = false;
@@ -218,16 +239,22 @@ ExactModes exact_modes(const System& system, const SparseMatrix& stiffness) {
     modes.static_load.segment(places.first, count) = block.shape.transpose() * system.static_load.segment(range.first, size);
     for (std::size_t i = 0; i < model.motions.size(); ++i) {
       modes.motion_load[i].segment(places.first, count) = block.shape.transpose() * model.motion_load[i].segment(range.first, size);
+      const double held = modes.motion_load[i].segment(places.first, count).squaredNorm();
+      modes.kept_mass[static_cast<Eigen::Index>(i)] += held;
+      shaken[static_cast<Eigen::Index>(i)] += held + (block.left_out.transpose() * model.motion_load[i].segment(range.first, size)).squaredNorm();
     }
-    modes.rest.segment(range.first, size) = block.flexibility * system.static_load.segment(range.first, size);
+    modes.rest.segment(range.first, size) = flexibility * system.static_load.segment(range.first, size);
     transposed.push_back(shape.transpose());
     shapes.push_back(std::move(shape));
     projections.push_back(std::move(projection));
-    flexibilities.push_back(block.flexibility);
+    flexibilities.push_back(flexibility);
     const Eigen::Index before = modes.massless_basis.cols();
-    modes.massless_basis.conservativeResizeLike(MatrixX::Zero(n, before + block.massless.cols()));
-    modes.massless_basis.block(range.first, before, size, block.massless.cols()) = block.massless;
+    const Eigen::Index massless = block.massless.cols();
+    modes.massless_basis.conservativeResizeLike(MatrixX::Zero(n, before + massless + left_out));
+    modes.massless_basis.block(range.first, before, size, massless) = block.massless;
+    modes.massless_basis.block(range.first, before + massless, size, left_out) = block.left_out;
   }
+  modes.kept_mass = (shaken.array() > 0).select(modes.kept_mass.cwiseQuotient(shaken), 1.0);
   modes.shape = BlockOperator(shapes, ranges, modes.ranges);
   modes.projection = BlockOperator(projections, modes.ranges, ranges);
   modes.shape_transposed = BlockOperator(transposed, modes.ranges, ranges);

@@ -32,7 +32,8 @@ struct ModalState {
 // Arrays by mode have `padded` entries. Those of a structure stand side by side in its range, slowest first, then motions of first order;
 // what fills the range up to whole SIMD registers are modes that nothing moves.
 struct ExactModes {
-  int dofs = 0, padded = 0, massless = 0, moving = 0;  // moving: modes, without motions of first order
+  int dofs = 0, padded = 0, massless = 0;
+  int moving = 0, left_out = 0;       // modes, without motions of first order; those above the highest frequency
   std::vector<BlockRange> ranges;     // of the structures
   VectorX square, decay;              // w^2 [1/s2], a [1/s]
   VectorX flexibility;                // 1 / w^2 of oscillators, 0 of the special ones
@@ -42,8 +43,9 @@ struct ExactModes {
   bool undamped = true;
   std::vector<DampingCoupling> couplings;  // at their places decay = flexibility = 0: no oscillators of their own
   BlockOperator shape, projection, shape_transposed;  // Phi, Phi' M, Phi'
-  BlockOperator massless_flexibility; // F
-  MatrixX massless_basis;             // N: columns span the motions without mass
+  BlockOperator massless_flexibility; // F, with Phi w^-2 Phi' of the modes left out: they follow their loads at once, too, but contact does not feel them
+  MatrixX massless_basis;             // N: columns span the motions without mass, and those left out
+  VectorX kept_mass;                  // of the mass that each motion shakes, the part that the kept modes hold
   VectorX static_load;                // Phi' F_g
   std::vector<VectorX> motion_load;   // of a unit base acceleration, one a motion
   VectorX rest;                       // F F_g, free DOFs [m]
@@ -60,14 +62,15 @@ struct ExactModes {
 
   // Damping ratio and circular frequency of a mode of a structure that damping ties to others; zeros for the others.
   std::pair<double, double> complex_mode(int structure, int mode) const;
+  bool follows() const { return massless + left_out > 0; }  // something moves without inertia
   int pairs() const { return static_cast<int>(compliant.size()); }
 };
 
 // The first nonlinear element and its kind, as "element 'a' (spring)"; empty when there is none.
 std::string nonlinear_element(const System& system);
 
-// Modes under a symmetric `stiffness` (free DOFs). Throws InputError, naming the structure, where contact meets DOFs that have dashpots and
+// Modes under a symmetric `stiffness` (free DOFs); those above `highest` [rad/s] are left out. Throws InputError, naming the structure, where contact meets DOFs that have dashpots and
 // no mass, and where damped modes are too nearly parallel to be told apart.
-ExactModes exact_modes(const System& system, const SparseMatrix& stiffness);
+ExactModes exact_modes(const System& system, const SparseMatrix& stiffness, double highest);
 
 }  // namespace nsframe

@@ -42,7 +42,7 @@ const System& accepted(const System& system) {
 }  // namespace
 
 Exponential::Exponential(const AnalysisOptions& options, const System& system)
-    : options_(options), flow_(options, exact_modes(accepted(system), symmetric_part(system.initial_stiffness))),
+    : options_(options), flow_(options, accepted(system), symmetric_part(system.initial_stiffness)),
       stiffness_(symmetric_part(system.initial_stiffness), system.assembler.blocks(), dense_block_limit),
       nonlinear_stiffness_(SparseMatrix((symmetric_part(system.initial_stiffness) - system.assembler.linear_stiffness()).pruned()),
                            system.assembler.blocks(), 0) {
@@ -70,7 +70,7 @@ Exponential::Exponential(const AnalysisOptions& options, const System& system)
     for (const double a : system.model.motions[i].acceleration) largest = std::max(largest, std::abs(a));
     scale_ += largest * largest_displacement(flexibility_.cwiseProduct(modes.motion_load[i]));
   }
-  find_steps(system);
+  find_modes(system);
 }
 
 void Exponential::project(Residual& r) {
@@ -93,7 +93,7 @@ void Exponential::evaluate(System& system, const VectorX& x, const VectorX& mass
     nonlinear_stiffness_.multiply(displacement_, next_.force);
     next_.force = nonlinear_force_ - next_.force;
     project(next_);
-    if (modes.massless == 0) return;
+    if (!modes.follows()) return;
     modes.massless_flexibility.multiply(next_.force, next_.massless);
     follow_ = next_.massless - massless_;  // F (P - p): F K leaves what has no mass and takes nothing from the modes
     if (tangent) {
@@ -129,19 +129,27 @@ void Exponential::start(System& system, const State& committed) {
   now_.force = committed.internal_force - now_.force;
   project(now_);
   now_.massless.setZero(modes.dofs);
-  if (modes.massless > 0) modes.massless_flexibility.multiply(now_.force, now_.massless);
+  if (modes.follows()) modes.massless_flexibility.multiply(now_.force, now_.massless);
   modal_rate_ = VectorX::Zero(now_.modal.size());
   massless_rate_ = VectorX::Zero(now_.massless.size());
-  level_ = least_level_;
+  level_ = 0;
   // the first peak, from rest position and velocity
   modes.shape.multiply(VectorX(flow_.modal().y.cwiseProduct(flexibility_.cwiseSqrt())), displacement_);
   peak_ = std::max(committed.displacement.cwiseAbs().maxCoeff(), displacement_.cwiseAbs().maxCoeff());
   memory_ = 1;
   massless_stiffness_.resize(0, 0);
   follow_ = VectorX::Zero(modes.dofs);
-  if (modes.massless == 0) return;
+  if (!modes.follows()) return;
   evaluate(system, flow_.modal().x, now_.massless, committed.history, history_);
   now_ = next_;
+}
+
+void Exponential::show(const ModalState& end, double s, bool in_contact, VectorX& shown) {
+  shown = end.x;
+  if (fastest_ * s <= farthest_turn) return;
+  load_ = end.f0;
+  if (in_contact) flow_.add_contact_load(load_);
+  shown = (flow_.modes().square.array() * (s * s) > farthest_turn * farthest_turn).select(flexibility_.cwiseProduct(load_), shown);
 }
 
 bool Exponential::advance(System& system, double time, double s, bool starting, const VectorX& committed, VectorX& trial,
@@ -149,12 +157,14 @@ bool Exponential::advance(System& system, double time, double s, bool starting, 
   flow_.set_force(now_.modal, modal_rate_, time);
   expected_massless_ = now_.massless + s * massless_rate_;
   if (!starting && flow_.glide(system, time, s, expected_)) {
-    evaluate(system, expected_.x, expected_massless_, committed, trial);
+    show(expected_, s, false, shown_);
+    evaluate(system, shown_, expected_massless_, committed, trial);
   } else {
     flow_.copy_to(before_);
     tried_ = StepResult{};
     flow_.travel(system, time, s, starting, tried_);
-    evaluate(system, flow_.modal().x, expected_massless_, committed, trial);
+    show(flow_.modal(), s, true, shown_);
+    evaluate(system, shown_, expected_massless_, committed, trial);
     flow_.go_back(before_);
   }
   const double error = error_ratio(next_.modal - now_.modal - s * modal_rate_, s);
@@ -170,7 +180,7 @@ bool Exponential::advance(System& system, double time, double s, bool starting, 
   result.strain += massless_work;
   result.input += massless_work;
   std::swap(now_, next_);
-  if (error < room_to_double && level_ > least_level_) --level_;
+  if (error < room_to_double && level_ > 0) --level_;
   return true;
 }
 
@@ -247,7 +257,7 @@ void Exponential::restore(System& system, const Snapshot& snapshot) {
   memory_ = snapshot.number("exponential.memory");
   massless_stiffness_ = MatrixX();
   if (const auto& kept = snapshot.array("exponential.massless_stiffness"); !kept.empty()) {
-    massless_stiffness_ = Eigen::Map<const MatrixX>(kept.data(), modes.massless, modes.massless);
+    massless_stiffness_ = Eigen::Map<const MatrixX>(kept.data(), modes.massless_basis.cols(), modes.massless_basis.cols());
     massless_tangent_.compute(massless_stiffness_);
   }
   level_ = static_cast<int>(snapshot.number("exponential.level"));
@@ -259,9 +269,10 @@ void Exponential::restore(System& system, const Snapshot& snapshot) {
 std::vector<std::string> Exponential::describe() const {
   std::vector<std::string> lines = flow_.describe();
   lines.emplace_back("the stiffness at rest exactly, the rest of the internal force as a load, from one evaluation of the elements a step");
-  if (least_level_ > 0) {
-    lines.push_back(fmt::format("every step in {} parts: a mode at {:.0f} Hz takes part in yielding and would grow at whole ones", 1 << least_level_,
-                                unstable_ / (2 * pi)));
+  if (fastest_ * options_.dt > farthest_turn) {
+    lines.push_back(fmt::format("at whole steps nonlinear elements see modes above {:.3g} Hz where they would rest: these turn by more than {:g} rad, and would "
+                                "grow; parts of steps where they swing far",
+                                farthest_turn / (2 * pi * options_.dt), farthest_turn));
   }
   if (options_.accuracy > 0) {
     lines.push_back(fmt::format("parts of steps by an error estimate, accuracy {:g} of the peak", options_.accuracy));

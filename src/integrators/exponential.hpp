@@ -1,6 +1,7 @@
 // The scheme `exponential` for nonlinear scenes (theory.md, section 16): the structure with its stiffness K at rest moves exactly, with
 // located impacts and sustained contact; what the internal force differs by, r = P(q) - K q, is a load that is linear over a step and
-// known from one evaluation of the elements. No iterations, nothing is factored. Second order, also across impacts.
+// known from one evaluation of the elements. No iterations, nothing is factored. Second order, also across impacts. Of modes too fast for the
+// step the elements see the static part.
 #pragma once
 
 #include "integrators/event_flow.hpp"
@@ -8,6 +9,7 @@
 namespace nsframe {
 
 inline constexpr int exponential_levels = 20;      // parts of a step down to dt / 2^20
+inline constexpr double farthest_turn = 3;         // [rad] of a mode between two evaluations, that elements can follow (theory.md, 236)
 inline constexpr double exponential_rest = 1e-8;   // of the largest displacement, that counts as none
 
 class Exponential : public Scheme {
@@ -18,7 +20,8 @@ class Exponential : public Scheme {
   std::string name() const override { return "exponential"; }
   bool condenses_massless() const override { return true; }
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
-  ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, w}; }
+  ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, flow_.kept_frequency(w)}; }
+  LeftOut left_out() const override { return flow_.left_out(); }
   ModeResponse complex_mode(int structure, int mode) const override {
     const auto [ratio, frequency] = flow_.modes().complex_mode(structure, mode);
     return {ratio, frequency};
@@ -34,8 +37,10 @@ class Exponential : public Scheme {
     VectorX force, modal, massless;     // r [N], Phi' r, F r
   };
   void project(Residual& r);  // fills r.modal from r.force
-  void find_steps(const System& system);
+  void find_modes(const System& system);
   void start(System& system, const State& committed);
+  // What the elements are shown of the modes at the end of a part of length s: of those that turn too far, where they would rest.
+  void show(const ModalState& end, double s, bool in_contact, VectorX& shown);
   // Evaluates the elements where the modes are at x, with histories; what has no mass stands where `massless` = F r wants it, and is
   // followed until it rests: by K, or by a tangent where K does not lead there quickly. Fills next_.
   void evaluate(System& system, const VectorX& x, const VectorX& massless, const VectorX& committed, VectorX& trial);
@@ -49,11 +54,10 @@ class Exponential : public Scheme {
   EventFlow flow_;
   BlockOperator stiffness_;             // K
   BlockOperator nonlinear_stiffness_;   // its part of nonlinear elements
-  int least_level_ = 0;                 // stable parts of dt: dt / 2^level
-  double unstable_ = 0;                 // frequency of the mode that wants least_level_ [rad/s]
   VectorX flexibility_;                 // 1 / w^2 of oscillators [s2]
   VectorX inverse_frequency_;           // 1 / w of oscillators, at most 1 s
   VectorX mode_size_;                   // largest entry of every mode
+  double fastest_ = 0;                  // frequency of a mode of which nonlinear elements have a share [rad/s]
   VectorX mode_share_;                  // of nonlinear elements in the stiffness of every mode
   double scale_ = 0;                    // displacement under static loads and peak ground accelerations, statically [m]
   // at the end of the last part
@@ -67,15 +71,11 @@ class Exponential : public Scheme {
   VectorX last_displacement_, last_velocity_;
   // work space
   Residual next_;
-  VectorX massless_, expected_massless_, follow_, history_, displacement_, nonlinear_force_, internal_;
+  VectorX shown_, load_, massless_, expected_massless_, follow_, history_, displacement_, nonlinear_force_, internal_;
   FlowState before_;
   ModalState expected_;
   StepResult tried_;
   int evaluations_ = 0;
 };
-
-// Spectral radius of a step of one undamped mode that turns by the angle w s, when nonlinear elements with `share` of its stiffness
-// keep the part `kept` of theirs: above 1 it grows (theory.md, 236).
-double exponential_radius(double angle, double share, double kept);
 
 }  // namespace nsframe

@@ -1,35 +1,20 @@
-// How long the parts of a step of the scheme `exponential` are: by stability, and by the error of the expected residual (theory.md, 234-236).
+// How long the parts of a step of the scheme `exponential` are: by the error of the expected residual, and by what modes hide from the elements
+// (theory.md, 234-237).
 #include <algorithm>
 #include <cmath>
 
-#include "base/decompositions.hpp"
 #include "integrators/exponential.hpp"
 
 namespace nsframe {
 
 namespace {
 
-constexpr double fastest_growth = 1;  // [1/s], of any mode while all nonlinear elements yield
-constexpr double guard = 0.02;       // part of the peak, without `accuracy`
+constexpr double guard = 0.02;        // part of the peak, without `accuracy`
+constexpr double least_share = 1e-12;  // of nonlinear elements in a mode: rounding
 
 }  // namespace
 
-double exponential_radius(double angle, double share, double kept) {
-  const double square = angle * angle;
-  const StepCoefficients c = step_coefficients(square, 0, 1);
-  const auto A = static_cast<double>(c.A), B = static_cast<double>(c.B), L = static_cast<double>(c.L), R = static_cast<double>(c.R);
-  const double change = (kept - 1) * share * square;  // r = change * x
-  Eigen::Matrix4d step;                                // of x, x', r, rate of r, in steps
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector4d from = Eigen::Vector4d::Unit(i);
-    const double x = A * from[0] + B * from[1] - L * from[2], y = -square * B * from[0] + A * from[1] - B * from[2];
-    const double r = change * (x - R * from[3]), rate = r - from[2];
-    step.col(i) << x - R * rate, y - L * rate, r, rate;
-  }
-  return Eigen::EigenSolver<MatrixX>(MatrixX(step), false).eigenvalues().cwiseAbs().maxCoeff();
-}
-
-void Exponential::find_steps(const System& system) {
+void Exponential::find_modes(const System& system) {
   const ExactModes& modes = flow_.modes();
   mode_size_ = mode_share_ = VectorX::Zero(modes.padded);
   inverse_frequency_ = modes.square.cwiseMax(1.0).cwiseSqrt().cwiseInverse();
@@ -42,18 +27,8 @@ void Exponential::find_steps(const System& system) {
     if (mode_size_[k] == 0 || modes.square[k] == 0) continue;
     system.assembler.linear_force(shape, linear);
     mode_share_[k] = std::clamp(1 - shape.dot(linear) / modes.square[k], 0.0, 1.0);
-    const auto grows = [&](double s) {
-      for (const double kept : {0.01, 0.25, 0.5, 0.75}) {
-        if (std::log(exponential_radius(std::sqrt(modes.square[k]) * s, mode_share_[k], kept)) > fastest_growth * s) return true;
-      }
-      return false;
-    };
-    while (least_level_ < exponential_levels && grows(std::ldexp(options_.dt, -least_level_))) {
-      ++least_level_;
-      unstable_ = std::sqrt(modes.square[k]);
-    }
+    if (mode_share_[k] > least_share) fastest_ = std::max(fastest_, std::sqrt(modes.square[k]));
   }
-  level_ = least_level_;
 }
 
 double Exponential::error_ratio(const VectorX& unexpected, double s) {
@@ -62,11 +37,16 @@ double Exponential::error_ratio(const VectorX& unexpected, double s) {
   const auto force = mode_size_.array() * unexpected.array().abs();
   const auto lag = inverse_frequency_.array();
   const double moved = (force * (lag.square() * (2 / s)).min(0.5 * s) * lag).sum();  // by the wrong impulse of this part [m]
-  if (options_.accuracy == 0) return moved / (guard * size);
-  const double held = (force * lag.square()).sum();                                    // by a wrong force that stays [m]
   const ModalState& start = flow_.modal();
   const auto swing = (start.x - flexibility_.cwiseProduct(start.f0)).array().abs() + start.y.array().abs() * lag;
-  const double hidden = ((mode_size_.cwiseProduct(mode_share_)).array() * (s * s / 8 * lag.square().inverse()).min(1.0) * swing).sum();
+  const auto size_seen = (mode_size_.cwiseProduct(mode_share_)).array();
+  const auto square = flow_.modes().square.array();
+  if (options_.accuracy == 0) {
+    const double unseen = fastest_ * s > farthest_turn ? (square * (s * s) > farthest_turn * farthest_turn).select(size_seen * swing, 0.0).sum() : 0.0;
+    return std::max(moved, unseen) / (guard * size);
+  }
+  const double held = (force * lag.square()).sum();                                    // by a wrong force that stays [m]
+  const double hidden = (size_seen * (s * s / 8 * square).min(1.0) * swing).sum();
   return std::max(moved / s, held + hidden) / (options_.accuracy * size);
 }
 

@@ -33,6 +33,7 @@ class Flight {
                    bool disturbed);
 
   ModalState& end() { return end_; }
+  double end_time() const { return finish_.time; }  // since the start of the flight [s]
   const VectorX& end_gap() const { return finish_.gap; }
   const VectorX& end_rate() const { return finish_.rate; }
   const ContactForces& forces() const { return forces_; }

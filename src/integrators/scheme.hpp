@@ -69,6 +69,13 @@ class Scheme {
   // The highest circular frequency at which a struck point rings by itself, where the scheme steps through that [rad/s]; else 0.
   virtual double struck_frequency() const { return 0; }
 
+  // Modes above analysis.highest_frequency, and the part of the mass shaken by the motions that the others hold.
+  struct LeftOut {
+    int modes = 0;
+    double kept_mass = 1;
+  };
+  virtual LeftOut left_out() const { return {}; }
+
   // Whether a step that threw ConvergenceError is worth trying in halves.
   virtual bool shorter_steps_help() const { return true; }
 

@@ -70,6 +70,12 @@ SchemeChoice choose_scheme(const AnalysisOptions& options, const System& system,
     diagnostics.error(options.scheme_at, fmt::format("analysis.accuracy needs scheme = \"exponential\", and this run takes moreau-jean ({})", choice.reason));
     diagnostics.throw_if_any();
   }
+  if (options.highest_frequency > 0 && choice.scheme->name() != "exact" && choice.scheme->name() != "exponential") {
+    Diagnostics diagnostics;
+    diagnostics.error(options.scheme_at, fmt::format("analysis.highest_frequency needs scheme = \"exact\" or \"exponential\", and this run takes {} ({})",
+                                                     choice.scheme->name(), choice.reason));
+    diagnostics.throw_if_any();
+  }
   return choice;
 }
 

@@ -90,9 +90,10 @@ class TimeHistory {
   template <class Call>
   void observe(const Call& call) {
     if (observers_.empty()) return;
-    const Timer timer;
+    const double before = clock_.seconds();
     call();
-    result_.observer_seconds += timer.seconds();
+    seconds_ = clock_.seconds();
+    result_.observer_seconds += seconds_ - before;
   }
   template <class Call>
   void each_observer(const Call& call) {
@@ -109,12 +110,11 @@ class TimeHistory {
   StepReport report_;
   StepResult step_;
   std::vector<Impact> step_impacts_;
-  VectorX momentum_;
   VectorX support_force_;      // of moved supports along each motion, at the end of the last step [N]
   double support_kinetic_ = 0;  // what they add to the kinetic energy [J]
   double start_ = 0;           // of the time history [s]
   Timer clock_;
-  double last_save_ = 0;       // on the clock [s]
+  double seconds_ = 0, last_save_ = 0;  // on the clock, when observers were last done and when it was last saved [s]
   double earlier_seconds_ = 0;  // of the run that this one continues
 };
 
@@ -194,8 +194,7 @@ void TimeHistory::add(const StepResult& step, double time) {
 void TimeHistory::watch_energy(const State& state) {
   Energy& energy = result_.energy;
   double& largest = result_.largest_energy;
-  momentum_.noalias() = system_.mass() * state.velocity;
-  energy.kinetic = 0.5 * state.velocity.dot(momentum_);
+  energy.kinetic = system_.kinetic_energy(state.velocity);
   if (system_.model.moves_supports()) {
     const double carried = system_.support_kinetic_energy(state.velocity, state.time);
     energy.kinetic += carried;
@@ -230,7 +229,7 @@ void TimeHistory::begin(State& committed, double duration) {
     system_.assembler.internal_force(committed.displacement, committed.history, trial.history, trial.internal_force);
     support_force_ = system_.support_forces(committed.displacement, committed.time);
   }
-  result_.energy.initial = 0.5 * committed.velocity.dot(system_.mass() * committed.velocity);
+  result_.energy.initial = system_.kinetic_energy(committed.velocity);
   watch_energy(committed);
   observe([&] {
     shown_.begin(committed, [&](const Model& model, const State& state) {
@@ -345,7 +344,8 @@ TimeHistoryResult TimeHistory::run(double duration, State& committed) {
   const bool saves = control_.keep_snapshot && control_.snapshot_interval > 0;
   while (result_.steps < steps && !stop_now() && step(result_.steps + 1, committed, trial)) {
     std::swap(committed, trial);
-    if (saves && clock_.seconds() - last_save_ >= control_.snapshot_interval) save(committed);
+    if (observers_.empty()) seconds_ = clock_.seconds();
+    if (saves && seconds_ - last_save_ >= control_.snapshot_interval) save(committed);
   }
   result_.completed = result_.steps == steps;
   save(committed);

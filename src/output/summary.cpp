@@ -336,6 +336,8 @@ std::string summary_json(const Summary& summary) {
       {"rejected_parts", summary.rejected_parts},
       {"stiffened_steps", summary.stiffened_steps},
       {"struck_frequency", summary.struck_frequency},
+      {"left_out_modes", summary.left_out_modes},
+      {"kept_mass", summary.kept_mass},
       {"laddered_steps", summary.laddered_steps},
       {"ladder", ladder_json(summary.ladder)},
       {"factorizations", summary.factorizations},

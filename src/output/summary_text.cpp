@@ -241,6 +241,11 @@ void put_modes(Buffer& out, const Summary& summary) {
   const std::size_t rows = std::min(most_rows, modes.size());
   for (std::size_t i = 0; i < rows; ++i) {
     const ModeNumerics& m = modes[i];
+    if (summary.left_out_modes > 0 && m.frequency_effective == 0) {
+      line(out, "  {:<26} {:<6} {:>13.4g} {:>14} {:>9.3f}", shortened(m.structure, 26), shortened(m.mode, 6), m.frequency, "left out",
+           rounded_off(100 * m.damping_asked, 5e-4));
+      continue;
+    }
     line(out, "  {:<26} {:<6} {:>13.4g} {:>14.4g} {:>9.3f} {:>9.3f} {:>10.3f}", shortened(m.structure, 26),
          shortened(m.mode, 6), m.frequency, m.frequency_effective, rounded_off(100 * m.damping_asked, 5e-4),
          rounded_off(100 * (m.damping_effective - m.damping_asked), 5e-4), rounded_off(100 * m.damping_effective, 5e-4));
@@ -255,6 +260,7 @@ void put_savings(Buffer& out, const Summary& summary) {
   fmt::format_to(std::back_inserter(out), "  saved: {} of {} assembled once", s.elements_assembled_once, counted(static_cast<std::size_t>(summary.elements), "element"));
   if (summary.fibers > 0) fmt::format_to(std::back_inserter(out), ", {:.0f} % of the fibers in quiet sections", 100 * s.quiet_fibers);
   if (s.guessed_steps > 0) fmt::format_to(std::back_inserter(out), ", {} steps solved by their first guess", s.guessed_steps);
+  if (summary.left_out_modes > 0) fmt::format_to(std::back_inserter(out), ", {} left out", counted(static_cast<std::size_t>(summary.left_out_modes), "mode"));
   line(out, ", {} factorizations avoided", s.factorizations_avoided);
   if (s.condensed_dofs > 0) {
     line(out, "  condensed: {} of {} DOFs, which have no mass: factors and stiffness keep {:.0f} % of their entries", s.condensed_dofs, summary.dofs,

@@ -184,11 +184,20 @@ void of_stiffening(const Model&, const Summary& summary, Sentences& out) {
                             summary.stiffened_steps, summary.steps));
 }
 
+constexpr double enough_mass = 0.9;  // Eurocode 8, 4.3.3.3.1(3)
+
+void of_left_out_modes(const Model&, const Summary& summary, Sentences& out) {
+  if (summary.kept_mass < enough_mass) {
+    out.push_back(fmt::format("modes up to highest_frequency hold only {:.0f} % of the mass that the motion shakes: forces and drifts may come out too low",
+                              100 * summary.kept_mass));
+  }
+}
+
 using Rule = void (*)(const Model&, const Summary&, Sentences&);
 constexpr Rule rules[]{of_the_scheme,  of_light_contact_nodes, of_effective_restitution,
                        of_penetration, of_short_contacts,      of_coarse_motions,
                        of_created_energy, of_halved_steps,     of_softened_members,
-                       of_struck_points,       of_stiffening};
+                       of_struck_points,       of_stiffening,          of_left_out_modes};
 
 }  // namespace
 

@@ -177,6 +177,11 @@ void visit(Archive& ar, AnalysisOptions& a) {
            "of scheme `exponential`: it takes parts of `dt` so that displacements are off by about this part of their peak; 0: whole steps",
            {}, {0, 0.1}},
      a.accuracy);
+  ar(Field{"highest_frequency",
+           "of schemes `exact` and `exponential`: modes above it are left out of motion and contact, they only follow static loads and what yields, at once; "
+           "0: all modes move",
+           dimension::frequency, range::non_negative},
+     a.highest_frequency);
   ar(Field{"duration", "model time; 0: length of the longest motion", dimension::time, range::non_negative},
      a.duration);
   ar(Field{"theta", "of the theta-method; the paper uses 1; scheme `event-split` takes 0.5 when none is given", {}, {0.5, 1}}, a.theta);

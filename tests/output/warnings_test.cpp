@@ -123,6 +123,16 @@ TEST_CASE("steps of alpha-OS that stiffening made implicit are told") {
   CHECK(run.warnings()[0].find("members stiffened beyond their stiffness at rest: alpha-OS would be unstable, and 24 of 100 steps") == 0);
 }
 
+TEST_CASE("modes that are left out are told where they hold much of the mass") {
+  Run run;
+  run.summary.left_out_modes = 20;
+  run.summary.kept_mass = 0.95;
+  CHECK(run.warnings().empty());
+  run.summary.kept_mass = 0.84;
+  REQUIRE(run.warnings().size() == 1);
+  CHECK(run.warnings()[0] == "modes up to highest_frequency hold only 84 % of the mass that the motion shakes: forces and drifts may come out too low");
+}
+
 TEST_CASE("force-based members whose sections softened are told") {
   Run run;
   run.summary.softened_members = {"left.c1"};
