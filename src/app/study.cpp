@@ -96,6 +96,7 @@ void StudyRun::find_interval() {
 Run StudyRun::make_reference(const LoadedScene& loaded, StudyReference& reference) const {
   const std::vector<std::string> known = scheme_names();
   AnalysisOptions options = loaded.scene.analysis;
+  options.highest_frequency = 0;  // a reference leaves nothing out
   std::string reasons;
   for (const char* scheme : reference_schemes) {
     if (std::find(known.begin(), known.end(), scheme) == known.end()) continue;

@@ -335,7 +335,7 @@ std::vector<std::string> EventFlow::describe() const {
   lines.push_back(fmt::format("natural modes: {}{}", modes_.moving,
                               modes_.massless > 0 ? fmt::format(", {} DOFs without mass condensed", modes_.massless) : ""));
   if (modes_.left_out > 0) {
-    const std::string mass = modes_.kept_mass.size() > 0 ? fmt::format("; the others hold {:.1f} % of the mass that the motion shakes", 100 * left_out().kept_mass) : "";
+    const std::string mass = modes_.kept_mass.size() > 0 ? fmt::format("; those that move hold {:.1f} % of the mass that the motion shakes", 100 * left_out().kept_mass) : "";
     lines.push_back(fmt::format("{} modes above {:g} Hz left out of motion and contact: they follow static loads and what yields at once{}", modes_.left_out,
                                 options_.highest_frequency, mass));
   }
