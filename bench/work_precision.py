@@ -25,8 +25,10 @@ SHORT = 5e-3  # [s] of CPU, below which what a process does at its start and end
 ENOUGH, MOST_RUNS = 0.5, 9  # short runs are repeated for so long [s], or so often
 EXPONENTIAL = {"analysis.scheme": "exponential"}
 SETTINGS = ([("exact", EXACT, dt) for dt in STEPS[:3]] + [("exponential", EXPONENTIAL, dt) for dt in STEPS]
-            + [("exponential, accuracy %s" % a, {**EXPONENTIAL, "analysis.accuracy": a}, 5e-3) for a in ("1e-2", "1e-3", "1e-4")]
+            + [("exponential, accuracy %s" % a, {**EXPONENTIAL, "analysis.accuracy": a}, 5e-3) for a in ("1e-2", "5e-3", "2e-3", "1e-3", "1e-4")]
             + [(name, scheme, dt) for name, scheme in ((HALF, moreau_jean(0.5, 0.5)), (PAPER, moreau_jean(1.0, 1.5))) for dt in STEPS])
+PAIR_SETTINGS = [("exact, modes up to 20 Hz", {**EXACT, "analysis.highest_frequency": "20 Hz"}, 1e-2),
+                 ("exponential, modes up to 10 Hz", {**EXPONENTIAL, "analysis.highest_frequency": "10 Hz"}, 1e-2)]
 GOAL = {"elastic": 0.01, "fiber": 0.01}  # part of a peer's time; elsewhere 1
 
 
@@ -47,8 +49,8 @@ def time_of(nsframe, case, scheme, dt, end, options):
 
 def nsframe_rows(nsframe, case, reference, options):
     rows, end = [], case.end(options)
-    for name, scheme, dt in SETTINGS:
-        if (name == "exact" and not case.linear) or (options.quick and dt != 5e-3):
+    for name, scheme, dt in SETTINGS + (PAIR_SETTINGS if case.columns else []):
+        if (name.startswith("exact") and not case.linear) or (options.quick and dt != 5e-3):
             continue
         progress("nsframe, %s, dt = %g ms" % (name, 1e3 * dt))
         row = dict(program="nsframe", series=name.split(",")[0] if "accuracy" in name else name, setting=name, dt=dt)

@@ -29,6 +29,7 @@ class EventFlow {
   EventFlow& operator=(const EventFlow&) = delete;
 
   const ExactModes& modes() const { return modes_; }
+  double kinetic_energy() const { return 0.5 * state_.y.squaredNorm(); }  // of the modes [J]
   Scheme::LeftOut left_out() const;
   // w, or 0 when such a mode is left out [rad/s].
   double kept_frequency(double w) const { return w <= highest_ ? w : 0; }

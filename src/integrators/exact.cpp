@@ -33,6 +33,7 @@ void Exact::step(System& system, const State& committed, State& trial, double h,
   trial.time = committed.time + h;
   flow_.write(trial.displacement, trial.velocity);
   trial.impulse = flow_.impulse();
+  result.kinetic = flow_.kinetic_energy();
   last_displacement_ = trial.displacement;
   last_velocity_ = trial.velocity;
 }

@@ -66,7 +66,7 @@ FlightEnergy energy_target(int padded, double s, const FlightArrays& m, const do
   return {hn::GetLane(hn::SumOfLanes(tag, work)), 0.5 * hn::GetLane(hn::SumOfLanes(tag, strain)), 0.5 * hn::GetLane(hn::SumOfLanes(tag, kinetic))};
 }
 
-ModalSize size_target(int padded, const FlightArrays& m, const double* damped) {
+ModalSize size_target(int padded, const FlightArrays& m, const double* raised) {
   const hn::ScalableTag<double> tag;
   const auto width = static_cast<int>(hn::Lanes(tag));
   const auto load = [&](const double* array, int i) { return hn::LoadU(tag, array + i); };
@@ -75,8 +75,8 @@ ModalSize size_target(int padded, const FlightArrays& m, const double* damped) {
     const auto w2 = load(m.square, i), a = load(m.decay, i), flexibility = load(m.flexibility, i), x = load(m.x, i);
     const auto slope = hn::Mul(load(m.f1, i), flexibility);
     const auto u = hn::Sub(x, hn::Mul(hn::NegMulAdd(hn::Add(a, a), slope, load(m.f0, i)), flexibility));
-    const auto v = hn::Div(hn::MulAdd(a, u, hn::Sub(load(m.y, i), slope)), load(damped, i));
-    energy = hn::MulAdd(w2, hn::MulAdd(u, u, hn::Mul(v, v)), energy);
+    const auto v = hn::MulAdd(a, u, hn::Sub(load(m.y, i), slope));
+    energy = hn::MulAdd(hn::Mul(w2, u), u, hn::MulAdd(hn::Mul(load(raised, i), v), v, energy));
     square = hn::MulAdd(x, x, square);
   }
   return {hn::GetLane(hn::SumOfLanes(tag, energy)), hn::GetLane(hn::SumOfLanes(tag, square))};
@@ -125,8 +125,8 @@ FlightEnergy sum_energy(int padded, double s, const FlightArrays& flight, const 
   return HWY_DYNAMIC_DISPATCH(energy_target)(padded, s, flight, load0, load1);
 }
 
-ModalSize modal_size(int padded, const FlightArrays& flight, const double* damped) {
-  return HWY_DYNAMIC_DISPATCH(size_target)(padded, flight, damped);
+ModalSize modal_size(int padded, const FlightArrays& flight, const double* raised) {
+  return HWY_DYNAMIC_DISPATCH(size_target)(padded, flight, raised);
 }
 
 void multiply_gaps(int padded, int pairs, const double* G, const double* x, const double* y, double* gap, double* rate) {

@@ -31,7 +31,8 @@ FlightEnergy sum_energy(int padded, double s, const FlightArrays& flight, const 
 struct ModalSize {
   double energy = 0, square = 0;
 };
-ModalSize modal_size(int padded, const FlightArrays& flight, const double* damped);
+// `raised`: square / (square - decay^2).
+ModalSize modal_size(int padded, const FlightArrays& flight, const double* raised);
 
 // gap = G x, rate = G y; G: pairs x padded, by rows.
 void multiply_gaps(int padded, int pairs, const double* G, const double* x, const double* y, double* gap, double* rate);

@@ -151,7 +151,7 @@ ModalSize Propagator::size(const ModalState& state) const {
   return modal_size(m.padded,
                     {m.square.data(), m.decay.data(), m.flexibility.data(), state.x.data(), state.y.data(), state.f0.data(), state.f1.data(), nullptr,
                      nullptr},
-                    m.damped.data());
+                    raised_.data());
 }
 
 void Propagator::bound_fourth(const ModalState& state, VectorX& pairs) {

@@ -19,7 +19,8 @@ StepCoefficients step_coefficients(long double square, long double a, long doubl
 
 class Propagator {
  public:
-  explicit Propagator(const ExactModes& modes) : modes_(modes), coupled_(modes) {}
+  explicit Propagator(const ExactModes& modes)
+      : modes_(modes), coupled_(modes), raised_(modes.square.cwiseQuotient(modes.damped.cwiseAbs2())) {}
 
   // All motions of move() and step(), and their bounds and energies, are from this state on.
   void begin(const ModalState& from) { coupled_.begin(from); }
@@ -55,6 +56,7 @@ class Propagator {
   CoupledMotion coupled_;
   std::vector<Step> steps_;
   std::size_t next_ = 0;
+  VectorX raised_;  // w^2 / (w^2 - a^2)
   VectorX mode_bound_, integral_;
 };
 

@@ -203,6 +203,7 @@ void Exponential::step(System& system, const State& committed, State& trial, dou
   trial.internal_force += now_.force;
   trial.acceleration = (trial.velocity - committed.velocity) / h;
   trial.impulse = flow_.impulse();
+  result.kinetic = flow_.kinetic_energy();
   peak_ = std::max(peak_, trial.displacement.cwiseAbs().maxCoeff());
   last_displacement_ = trial.displacement;
   last_velocity_ = trial.velocity;

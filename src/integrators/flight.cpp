@@ -25,7 +25,7 @@ Flight::Flight(const ExactModes& modes, Propagator& propagator, SustainedContact
 
 bool Flight::stays_far(const VectorX& gap, const VectorX& rate, double length) const {
   const ModalSize size = propagator_.size(*state_);
-  const double fourth = std::sqrt(size.energy) * std::pow(length, 4) / 384, x = std::sqrt(size.square);
+  const double fourth = std::sqrt(size.energy) * length * length * length * length / 384, x = std::sqrt(size.square);
   for (int c = 0; c < modes_.pairs(); ++c) {
     // the cubic through the ends' values and slopes, and what the gap may differ from it
     const double least = std::min(gap[c], finish_.gap[c]) - 0.25 * length * std::max(std::abs(rate[c]), std::abs(finish_.rate[c])) - fourth * far_factor_[c];

@@ -2,6 +2,7 @@
 // schemes.cpp and one test.
 #pragma once
 
+#include <optional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -29,6 +30,7 @@ struct StepResult {
   std::vector<VelocityJump> jumps;   // in the order of time
   std::vector<Attempt> attempts;     // of the solution algorithms, also when the step failed
   std::vector<Slip> slips;           // of pairs with friction in contact
+  std::optional<double> kinetic;     // energy at the end, where it is not that of all velocities: some follow without inertia [J]
   double created = 0;                // by restitution in simultaneous impacts [J]
   Accumulations accumulations;       // ended in this step
   // increments over the step [J]; kinetic and strain energy are those of Energy

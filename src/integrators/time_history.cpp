@@ -82,7 +82,7 @@ class TimeHistory {
   // Energies are those of the motion relative to the base: what moved supports add to strain energy and input.
   void add_support_work(double start, double end, const State& trial, StepResult& step);
   void add(const StepResult& step, double time);
-  void watch_energy(const State& state);
+  void watch_energy(const State& state, std::optional<double> kinetic);
   bool stop_now();
   void save(const State& committed);
   void restore(State& committed);
@@ -191,10 +191,10 @@ void TimeHistory::add(const StepResult& step, double time) {
   report_.jumps.insert(report_.jumps.end(), step.jumps.begin(), step.jumps.end());
 }
 
-void TimeHistory::watch_energy(const State& state) {
+void TimeHistory::watch_energy(const State& state, std::optional<double> kinetic) {
   Energy& energy = result_.energy;
   double& largest = result_.largest_energy;
-  energy.kinetic = system_.kinetic_energy(state.velocity);
+  energy.kinetic = kinetic ? *kinetic : system_.kinetic_energy(state.velocity);
   if (system_.model.moves_supports()) {
     const double carried = system_.support_kinetic_energy(state.velocity, state.time);
     energy.kinetic += carried;
@@ -230,7 +230,7 @@ void TimeHistory::begin(State& committed, double duration) {
     support_force_ = system_.support_forces(committed.displacement, committed.time);
   }
   result_.energy.initial = system_.kinetic_energy(committed.velocity);
-  watch_energy(committed);
+  watch_energy(committed, {});
   observe([&] {
     shown_.begin(committed, [&](const Model& model, const State& state) {
       each_observer([&](Observer& observer) { observer.start(model, state); });
@@ -254,7 +254,7 @@ bool TimeHistory::step(int number, State& committed, State& trial) {
     return false;
   }
   ++result_.steps;
-  watch_energy(trial);
+  watch_energy(trial, step_.kinetic);
   if (result_.steps % quiet_sampling == 0 && system_.assembler.fibers() > 0) {
     result_.quiet_fibers += static_cast<double>(system_.assembler.quiet_fibers(trial.history));
     ++result_.quiet_samples;
