@@ -7,6 +7,8 @@ fiber columns, in nsframe and, where openseespy can be imported, in OpenSees.
 Writes bench/results/scaling.md and .json. Standard library only. What the numbers mean: bench/README.md.
 """
 import argparse
+import os
+import tempfile
 
 from harness import (Nsframe, arguments, machine, number, peer_arguments, peer_python, progress, run_bench, step_microseconds, table,
                      write_compared)
@@ -22,6 +24,8 @@ QUICK_STEPS = 5
 RATIO = 0.01                  # of six modes of each building (in OpenSees: of the model)
 GAPS = (1e-6, 1.5e-6)         # [m], so that floors touch from the first steps on
 FAR = {"contact.gap": '["0.5 m", "0.5 m"]'}  # pairs that nothing reaches
+PRESSED = 0.03                # [g] of a constant base acceleration that presses all floors of one building against the other
+PRESSED_STEPS = 3000          # until they are, at 128 stories
 # event-split locates the bursts of these tiny gaps one by one, which takes minutes: only its steps without contact are timed
 RUNS_OF = {"nsframe": moreau_jean(1.0), "nsframe, two threads": {**moreau_jean(1.0), "analysis.threads": 2}, "nsframe, far": {**moreau_jean(1.0), **FAR},
            "event-split, far": {"analysis.scheme": "event-split", **FAR}}
@@ -45,8 +49,16 @@ def settings(stories):
     return values
 
 
+def pressed(folder):
+    """Settings of the constant acceleration; its record is written to the folder."""
+    record = os.path.join(folder, "push.txt")
+    with open(record, "w") as file:
+        file.write("0\n" + "-1\n" * 200)
+    return {**moreau_jean(1.0), "motion.file": record, "motion.dt": "0.05 s", "motion.unit": "m/s2", "motion.pga": "%g g" % PRESSED}
+
+
 def nsframe_row(nsframe, columns, stories, quick, name, scheme):
-    steps = QUICK_STEPS if quick else STEPS[columns][stories]
+    steps = QUICK_STEPS if quick else PRESSED_STEPS if name.endswith("pressed") else STEPS[columns][stories]
     progress("%s, %d stories: %s" % (columns, stories, name))
     times = []
     for _ in range(1 if quick else RUNS):
@@ -54,7 +66,7 @@ def nsframe_row(nsframe, columns, stories, quick, name, scheme):
         times.append(step_microseconds(summary))
     return dict(program=name, stories=stories, dofs=summary["dofs"], steps=steps, step_us=min(times), step_us_all=times,
                 setup_s=summary["timing"]["setup"], memory_mb=usage["memory_mb"], impacts=len(summary["impacts"]),
-                pairs_struck=len({impact["pair"] for impact in summary["impacts"]}),
+                pairs_struck=len({impact["pair"] for impact in summary["impacts"]}), impulses_a_step=len(summary["impacts"]) / summary["steps"],
                 iterations=summary["newton_iterations"] / summary["steps"], factorizations=summary["factorizations"])
 
 
@@ -70,8 +82,9 @@ def opensees_row(opensees, columns, stories, quick):
 def text_of(columns, rows):
     own = {row["stories"]: row for row in rows if row["program"] == "nsframe"}
     other = {row["stories"]: row for row in rows if row["program"] == "OpenSees"}
-    two, far, split_far = ({row["stories"]: row["step_us"] for row in rows if row["program"] == name}
-                           for name in ("nsframe, two threads", "nsframe, far", "event-split, far"))
+    two, far, split_far, together = ({row["stories"]: row["step_us"] for row in rows if row["program"] == name}
+                           for name in ("nsframe, two threads", "nsframe, far", "event-split, far", "nsframe, pressed"))
+    carrying = {row["stories"]: row["impulses_a_step"] for row in rows if row["program"] == "nsframe, pressed"}
     reference = own.get(8)
     lines = []
     smaller = None
@@ -83,11 +96,11 @@ def text_of(columns, rows):
         relative = per_dof / (reference["step_us"] / reference["dofs"]) if reference else None
         lines.append(["%d" % stories, "%d" % row["dofs"], number(row["step_us"]), number(1e3 * per_dof), number(relative),
                       number(row["setup_s"]), number(row["memory_mb"]), number(more), "%d" % row["impacts"], "%d" % row["pairs_struck"],
-                      number(row["iterations"]), number(two[stories]), number(far[stories]), number(split_far[stories]),
+                      number(row["iterations"]), number(two[stories]), number(far[stories]), number(together[stories]), number(carrying[stories]), number(split_far[stories]),
                       number(peer["step_us"] if peer else None), number(peer["step_us"] / row["step_us"] if peer else None),
                       number(peer["memory_mb"] if peer else None)])
     head = ["stories", "DOFs", "µs a step", "ns a DOF", "to 8 stories", "setup, s", "memory, MB", "kB a DOF more", "impacts",
-            "pairs struck", "iterations", "two threads, µs", "far, µs", "event-split, far, µs", "OpenSees, µs", "OpenSees / it", "its memory, MB"]
+            "pairs struck", "iterations", "two threads, µs", "far, µs", "pressed, µs", "pairs that carry", "event-split, far, µs", "OpenSees, µs", "OpenSees / it", "its memory, MB"]
     return "## %s\n\n%s" % (TITLES[columns], table(head, lines))
 
 
@@ -102,14 +115,16 @@ def main():
     opensees = Opensees(python) if python else None
     data = dict(machine=machine(), opensees=reason or "run", cases={})
     parts = []
-    for columns in options.columns:
-        rows = []
-        for stories in options.stories[:1] if options.quick else options.stories:
-            rows += [nsframe_row(nsframe, columns, stories, options.quick, name, scheme) for name, scheme in RUNS_OF.items()]
-            if opensees:
-                rows.append(opensees_row(opensees, columns, stories, options.quick))
-        data["cases"][columns] = rows
-        parts.append(text_of(columns, rows))
+    with tempfile.TemporaryDirectory() as folder:
+        runs = {**RUNS_OF, "nsframe, pressed": pressed(folder)}
+        for columns in options.columns:
+            rows = []
+            for stories in options.stories[:1] if options.quick else options.stories:
+                rows += [nsframe_row(nsframe, columns, stories, options.quick, name, scheme) for name, scheme in runs.items()]
+                if opensees:
+                    rows.append(opensees_row(opensees, columns, stories, options.quick))
+            data["cases"][columns] = rows
+            parts.append(text_of(columns, rows))
     write_compared(options, "scaling", "Cost of a step against size",
                    "Least of several runs on one core but where two threads are named; dt = 1 ms, El Centro 0.30 g from its start.",
                    "modalDampingQ of six modes, BandSPD, KrylovNewton, Newmark 1/2, 1/4, penalty 1e8 N/m", reason, parts, data)

@@ -6,6 +6,7 @@
 #include "base/decompositions.hpp"
 #include "contact/active_cholesky.hpp"
 #include "contact/contact_problem.hpp"
+#include "contact/profile_matrix.hpp"
 
 namespace nsframe {
 
@@ -13,8 +14,9 @@ namespace {
 
 // Sets from which on all wrong pairs change at once; below, one by one is as fast.
 constexpr Eigen::Index large = 16;
-// Share of entries of W above rounding below which it is factored as a sparse matrix.
-constexpr double sparse_share = 0.3;
+constexpr double symmetry = 1e-12;  // of W with unit diagonal
+// Share of W's entries in its profile below which it is factored by that.
+constexpr double profile_share = 0.5;
 
 // W with unit diagonal, so that pairs between heavy and between light bodies weigh the same.
 struct Scaled {
@@ -23,7 +25,7 @@ struct Scaled {
 
   // What rounding leaves of W p + rhs, row by row.
   VectorX rounding(const VectorX& p) const {
-    return 4 * static_cast<double>(rhs.size()) * machine_epsilon * (W.cwiseAbs() * p + rhs.cwiseAbs());
+    return 4 * static_cast<double>(rhs.size()) * machine_epsilon * (W.cwiseAbs().lazyProduct(p) + rhs.cwiseAbs());
   }
 };
 
@@ -86,79 +88,74 @@ bool solve_one_by_one(const Scaled& problem, double dependence, VectorX& p, int&
   return false;
 }
 
-// x = W_AA^-1 rhs_A by a sparse or a dense factor; nothing when W_AA is close to singular.
+// x = W_AA^-1 rhs_A by a factor of its profile, or a dense one; nothing when W_AA is close to singular.
 class SetSolver {
  public:
-  explicit SetSolver(const MatrixX& W) : W_(W) {
-    const double dropped = 0.1 * machine_epsilon;
-    const auto entries = (W.array().abs() > dropped).count();
-    sparse_ = static_cast<double>(entries) < sparse_share * static_cast<double>(W.size());
-    if (sparse_) near_ = (W.array().abs() > dropped).select(W, 0.0).sparseView();
-  }
+  explicit SetSolver(const ProfileMatrix& W) : W_(W), narrow_(W.share() < profile_share) {}
 
-  bool factor(const std::vector<Eigen::Index>& pairs) {
-    const auto k = static_cast<Eigen::Index>(pairs.size());
+  bool factor(const std::vector<int>& set) {
     const double least = 1e-10;
-    if (!sparse_) {
-      dense_factor_.compute(MatrixX(W_(pairs, pairs)));
-      return dense_factor_.info() == Eigen::Success && dense_factor_.matrixLLT().diagonal().minCoeff() > std::sqrt(least);
-    }
-    std::vector<Eigen::Triplet<double>> entries;
-    std::vector<int> place(static_cast<std::size_t>(W_.rows()), -1);
-    for (Eigen::Index i = 0; i < k; ++i) place[static_cast<std::size_t>(pairs[static_cast<std::size_t>(i)])] = static_cast<int>(i);
-    for (Eigen::Index j = 0; j < k; ++j) {
-      for (SparseMatrix::InnerIterator it(near_, pairs[static_cast<std::size_t>(j)]); it; ++it) {
-        const int row = place[static_cast<std::size_t>(it.row())];
-        if (row >= 0) entries.emplace_back(row, static_cast<int>(j), it.value());
-      }
-    }
-    SparseMatrix A(k, k);
-    A.setFromTriplets(entries.begin(), entries.end());
-    sparse_factor_.compute(A);
-    return sparse_factor_.info() == Eigen::Success && sparse_factor_.vectorD().minCoeff() > least;
+    if (narrow_) return profile_.compute(W_, set, least);
+    const auto k = static_cast<Eigen::Index>(set.size());
+    among_.resize(k, k);
+    for (Eigen::Index j = 0; j < k; ++j) W_.gather(set[static_cast<std::size_t>(j)], set, static_cast<int>(k), among_.col(j).data());
+    dense_.compute(among_);
+    return dense_.info() == Eigen::Success && dense_.matrixLLT().diagonal().minCoeff() > std::sqrt(least);
   }
-  VectorX solve(const VectorX& rhs) const { return sparse_ ? VectorX(sparse_factor_.solve(rhs)) : VectorX(dense_factor_.solve(rhs)); }
+  void solve(VectorX& x) const {
+    if (narrow_) return profile_.solve(x);
+    x = dense_.solve(x);
+  }
 
  private:
-  const MatrixX& W_;
-  bool sparse_ = false;
-  SparseMatrix near_;
-  Eigen::SimplicialLDLT<SparseMatrix> sparse_factor_;
-  Eigen::LLT<MatrixX> dense_factor_;
+  const ProfileMatrix& W_;
+  bool narrow_;
+  ProfileFactor profile_;
+  MatrixX among_;
+  Eigen::LLT<MatrixX> dense_;
 };
 
 // All pairs whose impulse or rate is negative change sides at once (semismooth Newton on min(p, W p + rhs)). False when that
-// runs in circles or meets a set that is close to singular.
-bool solve_all_at_once(const Scaled& problem, const VectorX& guess, VectorX& p, int& iterations) {
-  const Eigen::Index n = problem.rhs.size();
-  SetSolver solver(problem.W);
-  std::vector<Eigen::Index> pairs;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (guess.size() == n ? guess[i] > 0 : problem.rhs[i] < 0) pairs.push_back(i);
+// runs in circles or meets a set that is close to singular. Vectors in the order of W; `rate` and `size`: W p + rhs and |W| |p| + |rhs|.
+bool solve_all_at_once(const ProfileMatrix& W, const VectorX& rhs, const VectorX& guess, VectorX& p, VectorX& rate, VectorX& size, int& iterations) {
+  const int n = W.rows();
+  SetSolver solver(W);
+  std::vector<int> set, next;
+  for (int i = 0; i < n; ++i) {
+    if (guess.size() == n ? guess[i] > 0 : rhs[i] < 0) set.push_back(i);
   }
+  const auto find_rates = [&] {
+    W.multiply(p, rate, size);
+    rate += rhs;
+    size += rhs.cwiseAbs();
+  };
   const int limit = 30;
+  const double noise = 4 * static_cast<double>(n) * machine_epsilon;
   for (iterations = 1; iterations <= limit; ++iterations) {
     p.setZero(n);
-    if (!pairs.empty()) {
-      if (!solver.factor(pairs)) return false;
-      VectorX inside = solver.solve(-problem.rhs(pairs));
-      p(pairs) = inside;
-      const VectorX left = (problem.W * p + problem.rhs)(pairs);  // also of the entries that were dropped
-      p(pairs) -= solver.solve(left);
+    if (!set.empty()) {
+      if (!solver.factor(set)) return false;
+      VectorX inside = -rhs(set);
+      solver.solve(inside);
+      p(set) = inside;
+      find_rates();
+      inside = rate(set);  // what rounding left
+      solver.solve(inside);
+      p(set) -= inside;
     }
-    const VectorX rate = problem.W * p + problem.rhs, noise = problem.rounding(p.cwiseAbs());
-    std::vector<Eigen::Index> next;
+    find_rates();
+    next.clear();
     bool same = true;
     std::size_t at = 0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const bool inside = at < pairs.size() && pairs[at] == i;
+    for (int i = 0; i < n; ++i) {
+      const bool inside = at < set.size() && set[at] == i;
       if (inside) ++at;
-      const bool wanted = inside ? p[i] >= -noise[i] : rate[i] < -noise[i];
+      const bool wanted = inside ? p[i] >= -noise * size[i] : rate[i] < -noise * size[i];
       if (wanted) next.push_back(i);
       same = same && wanted == inside;
     }
     if (same) return true;
-    pairs = std::move(next);
+    std::swap(set, next);
   }
   return false;
 }
@@ -179,13 +176,46 @@ void share(const Scaled& problem, VectorX& p) {
   if (shared.minCoeff() >= 0) p(resting) = shared;
 }
 
-bool symmetric(const MatrixX& W) { return (W - W.transpose()).cwiseAbs().maxCoeff() <= 1e-12; }
+bool symmetric(const MatrixX& W) { return (W - W.transpose()).cwiseAbs().maxCoeff() <= symmetry; }
+
+// Not converged where it is not for this method: an unsymmetric W, one that is close to singular on the set it tries, redundant pairs that
+// are to share their impulses.
+ContactSolution solve_large(const ContactProblem& problem, const ContactOptions& options, const VectorX& guess) {
+  const VectorX scale = problem.delassus.diagonal().cwiseSqrt().cwiseInverse();
+  const ProfileMatrix W(problem.delassus, scale, 0.1 * machine_epsilon);
+  ContactSolution solution;
+  if (!W.symmetric(symmetry)) return solution;
+  const std::vector<int>& order = W.order();
+  const VectorX rhs = scale.cwiseProduct(problem.rhs)(order);
+  VectorX ordered_guess, p, rate, size;
+  if (guess.size() == problem.rhs.size()) ordered_guess = guess(order);
+  if (!solve_all_at_once(W, rhs, ordered_guess, p, rate, size, solution.iterations)) return solution;
+  const double noise = 4 * static_cast<double>(W.rows()) * machine_epsilon;
+  const VectorX ordered_scale = scale(order);
+  double error = 0, rates = 0;
+  solution.impulse.resize(problem.rhs.size());
+  for (Eigen::Index i = 0; i < p.size(); ++i) {
+    const double impulse = std::max(p[i], 0.0);
+    if (impulse == 0 && std::abs(rate[i]) <= 16 * noise * size[i]) return solution;  // at rest without impulse
+    error = std::max(error, std::abs(std::min(impulse, rate[i])) / ordered_scale[i]);
+    rates = std::max(rates, size[i] / ordered_scale[i]);
+    solution.impulse[order[static_cast<std::size_t>(i)]] = ordered_scale[i] * impulse;
+  }
+  const double largest = std::max(problem.rhs.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
+  solution.error = error / largest;
+  solution.converged = solution.error <= std::max(options.tolerance, 16 * static_cast<double>(W.rows()) * machine_epsilon * rates / largest);
+  return solution;
+}
 
 }  // namespace
 
 ContactSolution solve_active_set(const ContactProblem& problem, const ContactOptions& options, const VectorX& guess) {
   const Eigen::Index n = problem.rhs.size();
   if (n == 0) return {VectorX(0), 0, 0, true};
+  if (n >= large) {
+    const ContactSolution solution = solve_large(problem, options, guess);
+    if (solution.converged) return solution;
+  }
   const VectorX scale = problem.delassus.diagonal().cwiseSqrt().cwiseInverse();
   const Scaled scaled{scale.asDiagonal() * problem.delassus * scale.asDiagonal(), scale.cwiseProduct(problem.rhs)};
   if (!symmetric(scaled.W)) return solve_lawson_hanson(problem, options);
@@ -205,7 +235,6 @@ ContactSolution solve_active_set(const ContactProblem& problem, const ContactOpt
     return true;
   };
   VectorX p;
-  if (n >= large && solve_all_at_once(scaled, guess, p, solution.iterations) && accept(p)) return solution;
   // Redundant pairs of badly scaled masses: rounding may hide which pairs depend. The proximal point method needs no such
   // question: each of its problems, W + delta I and rhs - delta p, is definite, and p tends to a solution of the first.
   ContactSolution best;

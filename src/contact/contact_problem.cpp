@@ -19,7 +19,7 @@ double complementarity_error(const ContactProblem& problem, const VectorX& impul
 
 double rounding_error(const ContactProblem& problem, const VectorX& impulse) {
   if (problem.rhs.size() == 0) return 0;
-  const double rates = (problem.delassus.cwiseAbs() * impulse.cwiseAbs()).maxCoeff();
+  const double rates = problem.delassus.cwiseAbs().lazyProduct(impulse.cwiseAbs()).maxCoeff();
   const double scale = std::max(problem.rhs.cwiseAbs().maxCoeff(), std::numeric_limits<double>::min());
   return 16 * static_cast<double>(impulse.size()) * std::numeric_limits<double>::epsilon() * rates / scale;
 }
