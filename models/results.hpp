@@ -249,6 +249,7 @@ struct Summary {
   long evaluations = 0;                           // of all elements; 0 where the scheme does not count them
   long stiffened_steps = 0;                       // of alpha-OS, made by its implicit form because members stiffened
   double struck_frequency = 0;                    // at which struck points ring, where the scheme steps through it [Hz]
+  double resting_frequency = 0;                   // above it, nonlinear elements see modes where they would rest, at whole steps; 0: they see all [Hz]
   int left_out_modes = 0;                         // above analysis.highest_frequency
   double kept_mass = 1;                           // that the others hold, of what the motions shake; the least of them
   long rejected_parts = 0;                        // of steps, made anew with half the length

@@ -144,11 +144,9 @@ bool ProfileFactor::compute(const ProfileMatrix& matrix, const std::vector<int>&
   const auto n = static_cast<int>(set.size());
   first_.resize(set.size());
   begin_.assign(1, 0);
-  int from = 0;
   for (int k = 0; k < n; ++k) {
     const int row_first = matrix.first(set[static_cast<std::size_t>(k)]);
-    // profiles of rows need not begin one after the other
-    from = static_cast<int>(std::lower_bound(set.begin(), set.begin() + k, row_first) - set.begin());
+    const auto from = static_cast<int>(std::lower_bound(set.begin(), set.begin() + k, row_first) - set.begin());
     first_[static_cast<std::size_t>(k)] = from;
     begin_.push_back(begin_.back() + static_cast<std::size_t>(k - from + 1));
   }
@@ -159,8 +157,8 @@ bool ProfileFactor::compute(const ProfileMatrix& matrix, const std::vector<int>&
     double pivot = matrix.entry(at, at);
     for (int j = begin; j < k; ++j) {
       const int other = first_[static_cast<std::size_t>(j)], shared = std::max(begin, other);
-      const double sum = matrix.entry(at, set[static_cast<std::size_t>(j)]) - Segment(L + (shared - begin), j - shared).dot(Segment(row(j) + (shared - other), j - shared));
-      L[j - begin] = sum / row(j)[j - other];
+      const Segment own(L + (shared - begin), j - shared), earlier(row(j) + (shared - other), j - shared);
+      L[j - begin] = (matrix.entry(at, set[static_cast<std::size_t>(j)]) - own.dot(earlier)) / row(j)[j - other];
       pivot -= L[j - begin] * L[j - begin];
     }
     if (!(pivot > least)) return false;

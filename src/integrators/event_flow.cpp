@@ -23,7 +23,12 @@ double highest_mode(const AnalysisOptions& options) {
 }  // namespace
 
 EventFlow::EventFlow(const AnalysisOptions& options, const System& system, const SparseMatrix& stiffness)
-    : options_(options), highest_(highest_mode(options)), modes_(exact_modes(system, stiffness, highest_)), propagator_(modes_), sustained_(modes_, propagator_), flight_(modes_, propagator_, sustained_) {
+    : options_(options),
+      highest_(highest_mode(options)),
+      modes_(exact_modes(system, stiffness, highest_)),
+      propagator_(modes_),
+      sustained_(modes_, propagator_),
+      flight_(modes_, propagator_, sustained_) {
   const int pairs = modes_.pairs();
   contact_.touching.assign(static_cast<std::size_t>(pairs), false);
   contact_.constant = modes_.gap_offset;
@@ -335,7 +340,8 @@ std::vector<std::string> EventFlow::describe() const {
   lines.push_back(fmt::format("natural modes: {}{}", modes_.moving,
                               modes_.massless > 0 ? fmt::format(", {} DOFs without mass condensed", modes_.massless) : ""));
   if (modes_.left_out > 0) {
-    const std::string mass = modes_.kept_mass.size() > 0 ? fmt::format("; those that move hold {:.1f} % of the mass that the motion shakes", 100 * left_out().kept_mass) : "";
+    std::string mass;
+    if (modes_.kept_mass.size() > 0) mass = fmt::format("; those that move hold {:.1f} % of the mass that the motion shakes", 100 * left_out().kept_mass);
     lines.push_back(fmt::format("{} modes above {:g} Hz left out of motion and contact: they follow static loads and what yields at once{}", modes_.left_out,
                                 options_.highest_frequency, mass));
   }

@@ -117,7 +117,8 @@ void Exponential::evaluate(System& system, const VectorX& x, const VectorX& mass
     massless_ += follow_;
     last_change = change;
   }
-  throw ConvergenceError("what has no mass does not come to rest: give it mass, or use scheme = \"moreau-jean\"");
+  throw ConvergenceError(modes.left_out > 0 ? "what has no mass, or the modes above highest_frequency, do not come to rest: raise it, or use scheme = \"moreau-jean\""
+                                            : "what has no mass does not come to rest: give it mass, or use scheme = \"moreau-jean\"");
 }
 
 void Exponential::start(System& system, const State& committed) {
@@ -270,10 +271,10 @@ void Exponential::restore(System& system, const Snapshot& snapshot) {
 std::vector<std::string> Exponential::describe() const {
   std::vector<std::string> lines = flow_.describe();
   lines.emplace_back("the stiffness at rest exactly, the rest of the internal force as a load, from one evaluation of the elements a step");
-  if (fastest_ * options_.dt > farthest_turn) {
-    lines.push_back(fmt::format("at whole steps nonlinear elements see modes above {:.3g} Hz where they would rest: these turn by more than {:g} rad, and would "
-                                "grow; parts of steps where they swing far",
-                                farthest_turn / (2 * pi * options_.dt), farthest_turn));
+  if (resting_frequency() > 0) {
+    lines.push_back(fmt::format("at whole steps nonlinear elements see modes above {:.3g} Hz where they would rest: these turn by more than {:g} rad, "
+                                "and would grow; parts of steps where they swing far",
+                                resting_frequency() / (2 * pi), farthest_turn));
   }
   if (options_.accuracy > 0) {
     lines.push_back(fmt::format("parts of steps by an error estimate, accuracy {:g} of the peak", options_.accuracy));

@@ -26,6 +26,7 @@ class Exponential : public Scheme {
     const auto [ratio, frequency] = flow_.modes().complex_mode(structure, mode);
     return {ratio, frequency};
   }
+  double resting_frequency() const override { return options_.accuracy == 0 && fastest_ * options_.dt > farthest_turn ? farthest_turn / options_.dt : 0; }
   long factorizations() const override { return 0; }
   void save(Snapshot& snapshot) const override;
   void restore(System& system, const Snapshot& snapshot) override;

@@ -71,6 +71,9 @@ class Scheme {
   // The highest circular frequency at which a struck point rings by itself, where the scheme steps through that [rad/s]; else 0.
   virtual double struck_frequency() const { return 0; }
 
+  // The circular frequency from which on nonlinear elements see modes where they would rest, at whole steps [rad/s]; 0: they see all.
+  virtual double resting_frequency() const { return 0; }
+
   // Modes above analysis.highest_frequency, and the part of the mass shaken by the motions that the others hold.
   struct LeftOut {
     int modes = 0;

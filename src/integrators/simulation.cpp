@@ -180,6 +180,7 @@ Summary Simulation::outline() const {
   if (scheme_->name() == "event-split") summary.integrator = options_.integrator;
   summary.rho_infinity = options_.rho_infinity;
   summary.struck_frequency = scheme_->struck_frequency() / (2 * pi);
+  summary.resting_frequency = scheme_->resting_frequency() / (2 * pi);
   const auto [left_out, kept_mass] = scheme_->left_out();
   summary.left_out_modes = left_out;
   summary.kept_mass = kept_mass;

@@ -19,6 +19,7 @@ namespace {
 using OrderedJson = nlohmann::ordered_json;
 
 constexpr double undamped = 1e-9;  // damping ratios below are rounding
+constexpr double heavy = 0.05, very_heavy = 0.1;  // effective masses of modes, of all
 
 OrderedJson to_json(const Vector3& vector) { return {vector.x(), vector.y(), vector.z()}; }
 
@@ -253,12 +254,24 @@ void warn_of_shift(const Summary& summary, const std::vector<ModeNumerics>& mode
                                  1e3 * summary.dt, mode_of(*worst), percent(shift(*worst))));
 }
 
+void warn_of_resting_modes(const Summary& summary, std::vector<std::string>& warnings) {
+  const auto heaviest = std::max_element(summary.modes.begin(), summary.modes.end(), [&](const auto& a, const auto& b) {
+    const auto weight = [&](const ModeNumerics& mode) { return mode.frequency > summary.resting_frequency ? mode.participation : 0; };
+    return weight(a) < weight(b);
+  });
+  if (summary.resting_frequency == 0 || heaviest == summary.modes.end()) return;
+  if (!(heaviest->frequency > summary.resting_frequency && heaviest->participation > very_heavy)) return;
+  warnings.push_back(fmt::format("dt = {:g} ms is too long for nonlinear elements to see mode {} ({:.3g} Hz) swing: they see it where it would rest; a smaller step, or "
+                                 "accuracy, shows it",
+                                 1e3 * summary.dt, mode_of(*heaviest), heaviest->frequency));
+}
+
 }  // namespace
 
 std::vector<ModeNumerics> modes_that_matter(const Summary& summary) {
   std::vector<ModeNumerics> modes;
   std::copy_if(summary.modes.begin(), summary.modes.end(), std::back_inserter(modes), [](const auto& mode) {
-    return mode.damping_asked > undamped || (mode.participation > 0.05 && mode.frequency < 30);
+    return mode.damping_asked > undamped || (mode.participation > heavy && mode.frequency < 30);
   });
   return modes.empty() ? summary.modes : modes;
 }
@@ -275,6 +288,7 @@ std::vector<std::string> numerical_warnings(const Summary& summary) {
   const auto modes = modes_that_matter(summary);
   warn_of_damping(summary, modes, warnings);
   warn_of_shift(summary, modes, warnings);
+  warn_of_resting_modes(summary, warnings);
   if (summary.worst_balance_error > 0.01) {
     warnings.push_back(
         fmt::format("the energy balance is off by {} of the largest energy: the results are not accurate",
@@ -336,6 +350,7 @@ std::string summary_json(const Summary& summary) {
       {"rejected_parts", summary.rejected_parts},
       {"stiffened_steps", summary.stiffened_steps},
       {"struck_frequency", summary.struck_frequency},
+      {"resting_frequency", summary.resting_frequency},
       {"left_out_modes", summary.left_out_modes},
       {"kept_mass", summary.kept_mass},
       {"laddered_steps", summary.laddered_steps},

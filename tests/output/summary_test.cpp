@@ -204,6 +204,31 @@ TEST_CASE("a scheme that adds no damping and no shift gives no warning") {
   CHECK(numerical_warnings(summary).empty());
 }
 
+TEST_CASE("modes that nonlinear elements see at rest are told where they are heavy, those left out stand so in the table") {
+  Summary summary = sample_summary();
+  for (auto& mode : summary.modes) {
+    mode.damping_effective = mode.damping_asked;
+    mode.frequency_effective = mode.frequency;
+  }
+  summary.modes.push_back({"left", "V1", 39, 0.02, 0.02, 39, 0.95});
+  summary.modes.push_back({"left", "V2", 103, 0.02, 0.02, 103, 0.05});
+  summary.dt = 1e-2;
+  CHECK(numerical_warnings(summary).empty());
+  summary.resting_frequency = 48;
+  CHECK(numerical_warnings(summary).empty());  // V2 is light
+  summary.dt = 2e-2;
+  summary.resting_frequency = 24;
+  const auto warnings = numerical_warnings(summary);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0] == "dt = 20 ms is too long for nonlinear elements to see mode V1 of 'left' (39 Hz) swing: they see it where it would rest; a smaller step, or "
+                       "accuracy, shows it");
+  summary.left_out_modes = 1;
+  summary.modes.back().frequency_effective = 0;
+  const std::string text = summary_text(summary);
+  CHECK(text.find("left out") != std::string::npos);
+  CHECK(text.find(", 1 mode left out, ") != std::string::npos);
+}
+
 TEST_CASE("the terminal table stays within 100 columns and lists at most 20 poundings") {
   const std::string text = summary_text(sample_summary());
   std::istringstream lines(text);
