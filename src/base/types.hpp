@@ -31,7 +31,7 @@ constexpr int aligned_size(int doubles) { return (doubles + aligned_doubles - 1)
 
 // Unlike ==, by one comparison of memory.
 inline bool same_bits(const VectorX& a, const VectorX& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0;
+  return a.size() == b.size() && (a.size() == 0 || std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0);
 }
 
 inline constexpr double pi = 3.14159265358979323846;

@@ -47,9 +47,11 @@ BlockModes solve_block(const MatrixX& stiffness, const MatrixX& mass, bool may_m
   if (!massless.empty()) {
     const Eigen::LDLT<Matrix> factor(light.transpose() * K * light);
     const Matrix coupling = light.transpose() * K * heavy;
-    const Matrix static_part = factor.solve(coupling);
-    condensed -= coupling.transpose() * static_part;
-    follow -= light * static_part;
+    if (!massive.empty()) {
+      const Matrix static_part = factor.solve(coupling);
+      condensed -= coupling.transpose() * static_part;
+      follow -= light * static_part;
+    }
     flexibility = factor.solve(Matrix(light.transpose()));
     modes.flexibility = Matrix(light * flexibility).template cast<double>();
   } else {

@@ -254,6 +254,24 @@ void warn_of_shift(const Summary& summary, const std::vector<ModeNumerics>& mode
                                  1e3 * summary.dt, mode_of(*worst), percent(shift(*worst))));
 }
 
+constexpr std::size_t enough_points = 20;  // of a stage: with fewer, half of the range is a step as it was asked for
+
+// A displacement that is led on by small steps, and a load that jumps: the solution may have gone over to another state of equilibrium.
+void warn_of_jumps(const StageResult& stage, std::vector<std::string>& warnings) {
+  if (stage.control != "displacement" || stage.points.size() < enough_points) return;
+  const auto less = [](const StagePoint& a, const StagePoint& b) { return a.load_factor < b.load_factor; };
+  const auto [least, most] = std::minmax_element(stage.points.begin(), stage.points.end(), less);
+  std::size_t at = 2;  // the first interval may be the stiffest by far
+  const auto jump = [&](std::size_t k) { return std::abs(stage.points[k].load_factor - stage.points[k - 1].load_factor); };
+  for (std::size_t k = 3; k < stage.points.size(); ++k) {
+    if (jump(k) > jump(at)) at = k;
+  }
+  if (!(jump(at) > 0.5 * (most->load_factor - least->load_factor))) return;
+  warnings.push_back(fmt::format("static stage '{}': from point {} to the next, at {:.4g} of {}, the load factor jumps from {:.4g} to {:.4g}: the path may have gone "
+                                 "over to another equilibrium; a smaller step, or control = \"arc-length\", tells",
+                                 stage.name, at - 1, stage.points[at].displacement, stage.at, stage.points[at - 1].load_factor, stage.points[at].load_factor));
+}
+
 void warn_of_resting_modes(const Summary& summary, std::vector<std::string>& warnings) {
   const auto heaviest = std::max_element(summary.modes.begin(), summary.modes.end(), [&](const auto& a, const auto& b) {
     const auto weight = [&](const ModeNumerics& mode) { return mode.frequency > summary.resting_frequency ? mode.participation : 0; };
@@ -279,6 +297,7 @@ std::vector<ModeNumerics> modes_that_matter(const Summary& summary) {
 std::vector<std::string> numerical_warnings(const Summary& summary) {
   std::vector<std::string> warnings;
   for (const StageResult& stage : summary.stages) {
+    warn_of_jumps(stage, warnings);
     if (stage.least_gap >= 0) continue;
     warnings.push_back(fmt::format("static stage '{}' closes a contact by {:.3g} mm: contacts do not act in static stages, structures "
                                    "pass through each other there",

@@ -195,7 +195,7 @@ TEST_CASE("a column of Concrete02 that leans a little carries its tangent modulu
   stage.control_node = Reference{"a.4", {}};
   stage.options.control = "displacement";
   stage.options.targets = {0.1};
-  stage.options.step = 2e-4;
+  stage.options.step = 1e-4;  // larger ones meet equilibria in tension on the first points, which rounding chooses
   d.stages = {stage};
   d.structures[0].masses = {mass("4", 1)};
   const Model model = build(d);

@@ -118,6 +118,25 @@ TEST_CASE("the summary tells of the stages, and of steps where an algorithm fail
   CHECK(numerical_warnings(summary)[0].starts_with("static stage 'release' closes a contact by 2 mm"));
 }
 
+TEST_CASE("a load that jumps while a displacement is led on by small steps is told") {
+  Summary summary;
+  StageResult stage;
+  stage.name = "push";
+  stage.control = "displacement";
+  stage.at = "left.9 ux";
+  for (int k = 0; k <= 30; ++k) stage.points.push_back({100.0 * k, 1e-3 * k, 2, 1e-9});
+  summary.stages = {stage};
+  CHECK(numerical_warnings(summary).empty());
+  summary.stages[0].points[7].load_factor = -2500;
+  const auto warnings = numerical_warnings(summary);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0] ==
+        "static stage 'push': from point 7 to the next, at 0.008 of left.9 ux, the load factor jumps from -2500 to 800: the path may have gone over to another "
+        "equilibrium; a smaller step, or control = \"arc-length\", tells");
+  summary.stages[0].control = "load";
+  CHECK(numerical_warnings(summary).empty());
+}
+
 TEST_CASE("a stage that pushes one structure into another knows how far") {
   ModelDescription d = sample_description();
   d.motions.clear();
