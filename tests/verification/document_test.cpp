@@ -1,4 +1,6 @@
 // docs/verification.md against the cases of the registry.
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -28,6 +30,9 @@ TEST_CASE("documents are the same up to one unit of the last digit shown, and no
   CHECK(document_difference("| u | 2.1e-05 | 2 |", "| u | 2.2e-05 | 2 |") == "");
   CHECK(document_difference("| u | 2.1e-05 | 2 |", "| u | 2.1e-04 | 2 |") != "");
   CHECK(document_difference("| u | 1 |", "| v | 1 |") != "");
+  const auto of_zero = [](const char* value, const char* difference) { return fmt::format("| error, J | {} | 0 | {} | 1.0e-09 abs |", value, difference); };
+  CHECK(document_difference(of_zero("-7.36e-12", "7.4e-12"), of_zero("3.7e-13", "3.7e-13")) == "");
+  CHECK(document_difference(of_zero("7.36e-11", "7.4e-11"), of_zero("3.7e-13", "3.7e-13")) != "");
   CHECK(document_difference("a\nb", "a") != "");
   CHECK(document_difference("| u | nan | 2 |", "| u | 1 | 2 |") != "");
 }
