@@ -3,7 +3,6 @@
 
 #include <Eigen/Dense>
 #include <Eigen/Sparse>
-#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -28,11 +27,6 @@ using AlignedVector = std::vector<double, Eigen::aligned_allocator<double>>;
 
 // The next multiple of aligned_doubles.
 constexpr int aligned_size(int doubles) { return (doubles + aligned_doubles - 1) / aligned_doubles * aligned_doubles; }
-
-// Unlike ==, by one comparison of memory.
-inline bool same_bits(const VectorX& a, const VectorX& b) {
-  return a.size() == b.size() && (a.size() == 0 || std::memcmp(a.data(), b.data(), static_cast<std::size_t>(a.size()) * sizeof(double)) == 0);
-}
 
 inline constexpr double pi = 3.14159265358979323846;
 inline constexpr double machine_epsilon = std::numeric_limits<double>::epsilon();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/errors.hpp"
 #include "integrators/gap_roots.hpp"
@@ -184,8 +185,7 @@ void EventSplit::check_gaps(const System& system, double time, double h) const {
 void EventSplit::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result = StepResult{};
   result.least_gap = std::numeric_limits<double>::infinity();
-  const bool fresh = !same_bits(last_displacement_, committed.displacement) || !same_bits(last_velocity_, committed.velocity);
-  last_displacement_.resize(0);  // a step that fails leaves contact somewhere: the next one then begins afresh
+  const bool fresh = !std::exchange(goes_on_, false);  // a step that fails leaves contact somewhere: the next one then begins afresh
   now_ = {committed.displacement, committed.velocity, committed.internal_force, fresh ? VectorX() : std::move(now_.a), {}};
   step_impulse_.setZero();
   tangent_.in_use = false;
@@ -218,8 +218,7 @@ void EventSplit::step(System& system, const State& committed, State& trial, doub
   trial.internal_force = now_.P;
   trial.acceleration = (now_.v - committed.velocity) / h;
   trial.impulse = step_impulse_;
-  last_displacement_ = now_.q;
-  last_velocity_ = now_.v;
+  goes_on_ = true;
 }
 
 void EventSplit::save(Snapshot& snapshot) const {
@@ -234,8 +233,7 @@ void EventSplit::save(Snapshot& snapshot) const {
   snapshot.put("event_split.contact_impulse", contact_impulse_);
   snapshot.put("event_split.largest_approach", largest_approach_);
   snapshot.put("event_split.last_contact", last_contact_);
-  snapshot.put("event_split.displacement", last_displacement_);
-  snapshot.put("event_split.velocity", last_velocity_);
+  snapshot.put("event_split.goes_on", goes_on_ ? 1.0 : 0.0);
   snapshot.put("event_split.acceleration", now_.a);
 }
 
@@ -254,9 +252,7 @@ void EventSplit::restore(System& system, const Snapshot& snapshot) {
   snapshot.read("event_split.contact_impulse", contact_impulse_);
   largest_approach_ = snapshot.number("event_split.largest_approach");
   last_contact_ = snapshot.number("event_split.last_contact");
-  last_displacement_ = last_velocity_ = VectorX::Zero(system.mass().rows());
-  snapshot.read("event_split.displacement", last_displacement_);
-  snapshot.read("event_split.velocity", last_velocity_);
+  goes_on_ = snapshot.number("event_split.goes_on") != 0;
   const std::vector<double>& acceleration = snapshot.array("event_split.acceleration");
   now_.a = Eigen::Map<const VectorX>(acceleration.data(), static_cast<Eigen::Index>(acceleration.size()));
 }

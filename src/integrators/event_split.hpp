@@ -99,7 +99,6 @@ class EventSplit : public Scheme {
   MatrixX delassus_;                    // of all pairs; NaN where not known yet
   VectorX contact_impulse_, step_impulse_;  // of sustained contacts since they closed; of all pairs in the step [N s]
   double largest_approach_ = 0;         // [m/s]
-  VectorX last_displacement_, last_velocity_;
   // work space
   Motion next_;
   VectorX history_;

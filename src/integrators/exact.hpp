@@ -28,7 +28,6 @@ class Exact : public Scheme {
 
  private:
   EventFlow flow_;
-  VectorX last_displacement_, last_velocity_;  // as written; another state is taken in anew
 };
 
 }  // namespace nsframe

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/errors.hpp"
 
@@ -188,8 +189,7 @@ bool Exponential::advance(System& system, double time, double s, bool starting, 
 void Exponential::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result = StepResult{};
   result.least_gap = std::numeric_limits<double>::infinity();
-  const bool fresh = !same_bits(last_displacement_, committed.displacement) || !same_bits(last_velocity_, committed.velocity);
-  last_displacement_.resize(0);  // a step that fails leaves the flow somewhere: the next one then begins afresh
+  const bool fresh = !std::exchange(goes_on_, false);  // a step that fails leaves the flow somewhere: the next one then begins afresh
   if (fresh) start(system, committed);
   flow_.clear_impulse();
   evaluations_ = 0;
@@ -206,8 +206,7 @@ void Exponential::step(System& system, const State& committed, State& trial, dou
   trial.impulse = flow_.impulse();
   result.kinetic = flow_.kinetic_energy();
   peak_ = std::max(peak_, trial.displacement.cwiseAbs().maxCoeff());
-  last_displacement_ = trial.displacement;
-  last_velocity_ = trial.velocity;
+  goes_on_ = true;
 }
 
 void Exponential::make_parts(System& system, const State& committed, State& trial, double h, bool fresh, StepResult& result) {
@@ -240,21 +239,19 @@ void Exponential::save(Snapshot& snapshot) const {
   snapshot.put("exponential.memory", memory_);
   snapshot.put("exponential.massless_stiffness", VectorX(massless_stiffness_.reshaped()));
   snapshot.put("exponential.level", static_cast<double>(level_));
-  snapshot.put("exponential.displacement", last_displacement_);
-  snapshot.put("exponential.velocity", last_velocity_);
+  snapshot.put("exponential.goes_on", goes_on_ ? 1.0 : 0.0);
 }
 
 void Exponential::restore(System& system, const Snapshot& snapshot) {
   flow_.restore(snapshot);
   const ExactModes& modes = flow_.modes();
-  now_.force = now_.massless = massless_rate_ = last_displacement_ = last_velocity_ = VectorX::Zero(modes.dofs);
+  now_.force = now_.massless = massless_rate_ = VectorX::Zero(modes.dofs);
   modal_rate_ = VectorX::Zero(modes.padded);
   snapshot.read("exponential.force", now_.force);
   snapshot.read("exponential.massless", now_.massless);
   snapshot.read("exponential.modal_rate", modal_rate_);
   snapshot.read("exponential.massless_rate", massless_rate_);
-  snapshot.read("exponential.displacement", last_displacement_);
-  snapshot.read("exponential.velocity", last_velocity_);
+  goes_on_ = snapshot.number("exponential.goes_on") != 0;
   peak_ = snapshot.number("exponential.peak");
   memory_ = snapshot.number("exponential.memory");
   massless_stiffness_ = MatrixX();

@@ -69,7 +69,6 @@ class Exponential : public Scheme {
   Eigen::PartialPivLU<MatrixX> massless_tangent_;
   double peak_ = 0;                     // largest displacement so far [m]
   int level_ = 0;
-  VectorX last_displacement_, last_velocity_;
   // work space
   Residual next_;
   VectorX shown_, load_, massless_, expected_massless_, follow_, history_, displacement_, nonlinear_force_, internal_;

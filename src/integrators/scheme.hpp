@@ -42,6 +42,9 @@ class Scheme {
   virtual ~Scheme() = default;
   virtual std::string name() const = 0;
 
+  // The next step begins from another state than the result of the last one: what a scheme keeps of that is void.
+  void begin_anew() { goes_on_ = false; }
+
   // Advances from `committed` by `h` [s] into `trial` (arrays of the right size, contents arbitrary). `committed` is
   // not changed, so a step that throws ConvergenceError has nothing to undo.
   virtual void step(System& system, const State& committed, State& trial, double h, StepResult& result) = 0;
@@ -96,6 +99,10 @@ class Scheme {
   // What outlives a step and is not in State: with it, a restored scheme goes on with the same bits.
   virtual void save(Snapshot& snapshot) const = 0;
   virtual void restore(System& system, const Snapshot& snapshot) = 0;
+
+ protected:
+  // Of schemes that keep the motion in a form of their own: it stands where the last step ended.
+  bool goes_on_ = false;
 };
 
 // The scheme of that name. Throws InputError for an unknown one.

@@ -222,6 +222,7 @@ void TimeHistory::begin(State& committed, double duration) {
     return;
   }
   start_ = committed.time;
+  scheme_.begin_anew();
   if (system_.model.moves_supports()) {
     State trial = committed;
     system_.place_supports(committed.time);
