@@ -18,6 +18,9 @@ constexpr double symmetry = 1e-12;  // of W with unit diagonal
 // Share of W's entries in its profile below which it is factored by that.
 constexpr double profile_share = 0.5;
 
+// Of sums over so many pairs, relative to the sum of magnitudes.
+double rounding_of(Eigen::Index pairs) { return 4 * static_cast<double>(pairs) * machine_epsilon; }
+
 // W with unit diagonal, so that pairs between heavy and between light bodies weigh the same.
 struct Scaled {
   MatrixX W;
@@ -25,7 +28,7 @@ struct Scaled {
 
   // What rounding leaves of W p + rhs, row by row.
   VectorX rounding(const VectorX& p) const {
-    return 4 * static_cast<double>(rhs.size()) * machine_epsilon * (W.cwiseAbs().lazyProduct(p) + rhs.cwiseAbs());
+    return rounding_of(rhs.size()) * (W.cwiseAbs().lazyProduct(p) + rhs.cwiseAbs());
   }
 };
 
@@ -98,7 +101,7 @@ class SetSolver {
     if (narrow_) return profile_.compute(W_, set, least);
     const auto k = static_cast<Eigen::Index>(set.size());
     among_.resize(k, k);
-    for (Eigen::Index j = 0; j < k; ++j) W_.gather(set[static_cast<std::size_t>(j)], set, static_cast<int>(k), among_.col(j).data());
+    for (Eigen::Index j = 0; j < k; ++j) W_.gather(set[static_cast<std::size_t>(j)], set, among_.col(j).data());
     dense_.compute(among_);
     return dense_.info() == Eigen::Success && dense_.matrixLLT().diagonal().minCoeff() > std::sqrt(least);
   }
@@ -130,7 +133,7 @@ bool solve_all_at_once(const ProfileMatrix& W, const VectorX& rhs, const VectorX
     size += rhs.cwiseAbs();
   };
   const int limit = 30;
-  const double noise = 4 * static_cast<double>(n) * machine_epsilon;
+  const double noise = rounding_of(n);
   for (iterations = 1; iterations <= limit; ++iterations) {
     p.setZero(n);
     if (!set.empty()) {
@@ -190,7 +193,7 @@ ContactSolution solve_large(const ContactProblem& problem, const ContactOptions&
   VectorX ordered_guess, p, rate, size;
   if (guess.size() == problem.rhs.size()) ordered_guess = guess(order);
   if (!solve_all_at_once(W, rhs, ordered_guess, p, rate, size, solution.iterations)) return solution;
-  const double noise = 4 * static_cast<double>(W.rows()) * machine_epsilon;
+  const double noise = rounding_of(W.rows());
   const VectorX ordered_scale = scale(order);
   double error = 0, rates = 0;
   solution.impulse.resize(problem.rhs.size());

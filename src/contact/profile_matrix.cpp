@@ -106,13 +106,8 @@ double ProfileMatrix::entry(int row, int column) const {
   return column < first_[i] || column > last_[i] ? 0 : values_[begin_[i] + static_cast<std::size_t>(column - first_[i])];
 }
 
-void ProfileMatrix::gather(int row, const std::vector<int>& columns, int count, double* to) const {
-  const auto i = static_cast<std::size_t>(row);
-  const double* const from = values_.data() + begin_[i];
-  for (int k = 0; k < count; ++k) {
-    const int column = columns[static_cast<std::size_t>(k)];
-    to[k] = column < first_[i] || column > last_[i] ? 0 : from[column - first_[i]];
-  }
+void ProfileMatrix::gather(int row, const std::vector<int>& columns, double* to) const {
+  for (const int column : columns) *to++ = entry(row, column);
 }
 
 bool ProfileMatrix::symmetric(double tolerance) const {

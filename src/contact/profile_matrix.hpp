@@ -10,7 +10,7 @@ namespace nsframe {
 
 class ProfileMatrix {
  public:
-  // diag(scale) W diag(scale), without entries up to `negligible`. One pass over W.
+  // diag(scale) W diag(scale), without entries up to `negligible`.
   ProfileMatrix(const MatrixX& W, const VectorX& scale, double negligible);
 
   int rows() const { return static_cast<int>(order_.size()); }
@@ -21,8 +21,8 @@ class ProfileMatrix {
   bool symmetric(double tolerance) const;
   int first(int row) const { return first_[static_cast<std::size_t>(row)]; }
   double entry(int row, int column) const;  // 0 beyond what is stored
-  // Entries of a row in the first `count` of some columns.
-  void gather(int row, const std::vector<int>& columns, int count, double* to) const;
+  // Entries of a row in some columns.
+  void gather(int row, const std::vector<int>& columns, double* to) const;
   // product = A p, size = |A| |p|.
   void multiply(const VectorX& p, VectorX& product, VectorX& size) const;
 

@@ -65,17 +65,14 @@ SchemeChoice choose(const AnalysisOptions& options, const System& system, const 
 
 SchemeChoice choose_scheme(const AnalysisOptions& options, const System& system, const State& start) {
   SchemeChoice choice = choose(options, system, start);
-  if (options.accuracy > 0 && choice.scheme->name() == "moreau-jean") {  // exact has any accuracy
-    Diagnostics diagnostics;
-    diagnostics.error(options.scheme_at, fmt::format("analysis.accuracy needs scheme = \"exponential\", and this run takes moreau-jean ({})", choice.reason));
+  const std::string scheme = choice.scheme->name();
+  Diagnostics diagnostics;
+  const auto refuse = [&](const char* option, const char* schemes) {
+    diagnostics.error(options.scheme_at, fmt::format("analysis.{} needs scheme = {}, and this run takes {} ({})", option, schemes, scheme, choice.reason));
     diagnostics.throw_if_any();
-  }
-  if (options.highest_frequency > 0 && choice.scheme->name() != "exact" && choice.scheme->name() != "exponential") {
-    Diagnostics diagnostics;
-    diagnostics.error(options.scheme_at, fmt::format("analysis.highest_frequency needs scheme = \"exact\" or \"exponential\", and this run takes {} ({})",
-                                                     choice.scheme->name(), choice.reason));
-    diagnostics.throw_if_any();
-  }
+  };
+  if (options.accuracy > 0 && scheme == "moreau-jean") refuse("accuracy", "\"exponential\"");  // exact has any accuracy
+  if (options.highest_frequency > 0 && scheme != "exact" && scheme != "exponential") refuse("highest_frequency", "\"exact\" or \"exponential\"");
   return choice;
 }
 
