@@ -72,13 +72,8 @@ VectorX EventFlow::accelerations() const {
 void EventFlow::collide(const System& system, double time, double remaining, StepResult& result) {
   if (modes_.pairs() == 0) return;
   rate_ = modes_.gap * state_.y;
-  collide_in_rounds(rate_, result.accumulations, [&](bool last) { return collide_once(system, time, remaining, last, result); }, [&] {
-    std::vector<int> touching;
-    for (int c = 0; c < modes_.pairs(); ++c) {
-      if (contact_.touching[static_cast<std::size_t>(c)] || std::binary_search(contact_.closed.begin(), contact_.closed.end(), c)) touching.push_back(c);
-    }
-    return touching;
-  });
+  collide_in_rounds(rate_, step_impulse_, result.accumulations, [&](bool last) { return collide_once(system, time, remaining, last, result); },
+                    [&] { return 64 * machine_epsilon * largest_approach_; });
   settle(system, time, result);
   disturbed_ = true;
 }

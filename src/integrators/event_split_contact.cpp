@@ -77,13 +77,8 @@ void EventSplit::collide(const System& system, double time, double remaining, St
   for (int c = 0; c < system.contacts().size(); ++c) {
     if (is_closed(c) || touching_[static_cast<std::size_t>(c)]) rate_[c] = contact(system, c).momentum.dot(now_.v);
   }
-  collide_in_rounds(rate_, result.accumulations, [&](bool last) { return collide_once(system, time, remaining, last, result); }, [&] {
-    std::vector<int> touching;
-    for (int c = 0; c < static_cast<int>(touching_.size()); ++c) {
-      if (is_closed(c) || touching_[static_cast<std::size_t>(c)]) touching.push_back(c);
-    }
-    return touching;
-  });
+  collide_in_rounds(rate_, step_impulse_, result.accumulations, [&](bool last) { return collide_once(system, time, remaining, last, result); },
+                    [&] { return rate_tolerance(); });
   settle(system, time, remaining, result);
 }
 

@@ -103,7 +103,7 @@ void Flight::follow_touching(FlightEvent& event) {
     const double second = std::abs(d[2]) > noise2 ? d[2] : 0;
     if (rate > 0 && second < 0) {
       double back = -2 * rate / second;
-      if (back * modes_.highest < series_angle && back <= event.time) {
+      if (back * modes_.highest < series_angle) {
         for (int i = 0; i < 20; ++i) {  // Newton on g(s) / s
           double value = 0, slope = 0;
           for (int n = 6; n >= 1; --n) {
@@ -114,8 +114,8 @@ void Flight::follow_touching(FlightEvent& event) {
           back += change;
           if (!(std::abs(change) > 4 * machine_epsilon * back)) break;
         }
-        if (back > 0 && back <= event.time) {
-          event = {back, FlightEvent::Kind::closes, c};
+        if (back > 0) {  // open until then
+          if (back <= event.time) event = {back, FlightEvent::Kind::closes, c};
           skip_[static_cast<std::size_t>(c)] = true;
           continue;
         }
