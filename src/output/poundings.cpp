@@ -5,9 +5,17 @@
 
 namespace nsframe {
 
+namespace {
+
+constexpr double resting = 1e-12;  // of the fastest approach: rounding of a contact that rests
+
+}  // namespace
+
 std::vector<Pounding> merge_impacts(const std::vector<Impact>& impacts, double window) {
   std::vector<Pounding> poundings;
   std::unordered_map<int, std::size_t> latest;  // pounding of each pair
+  double fastest = 0;
+  for (const Impact& impact : impacts) fastest = std::max(fastest, impact.approach_velocity);
   for (const auto& impact : impacts) {
     const auto found = latest.find(impact.pair);
     const bool continues = found != latest.end() &&
@@ -26,7 +34,7 @@ std::vector<Pounding> merge_impacts(const std::vector<Impact>& impacts, double w
     pounding.impacts += 1;
     // A pounding that begins in resting contact has no approach to compare with.
     pounding.effective_restitution =
-        pounding.approach_velocity > 0 ? impact.rate_after / pounding.approach_velocity : 0;
+        pounding.approach_velocity > resting * fastest ? impact.rate_after / pounding.approach_velocity : 0;
   }
   // a contact with a law of force is told when it ends
   std::stable_sort(poundings.begin(), poundings.end(), [](const Pounding& p, const Pounding& q) { return p.time < q.time; });

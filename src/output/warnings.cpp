@@ -68,7 +68,7 @@ void of_effective_restitution(const Model& model, const Summary& summary, Senten
     ++seen;
     if (departure(pounding) <= restitution_tolerance) continue;
     ++different;
-    if (!worst || departure(pounding) > departure(*worst)) worst = &pounding;
+    if (!worst || departure(pounding) > departure(*worst) + 1e-6) worst = &pounding;  // the first of those that rounding alone orders
   }
   if (!worst) return;
   out.push_back(fmt::format("{} of {} pounding{} did not part with the restitution of the scene: at t = {:.4g} s, {} parted with "

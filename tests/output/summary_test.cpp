@@ -85,9 +85,11 @@ TEST_CASE("a contact with a law of force is a pounding from its begin to its end
 }
 
 TEST_CASE("a pounding that starts from resting contact has no restitution") {
-  const auto poundings = merge_impacts({impact_at(0.5, 0, 0, 3, 0)});
-  REQUIRE(poundings.size() == 1);
+  const auto poundings = merge_impacts({impact_at(0.5, 0, 0, 3, 0), impact_at(1, 0, 0.4, 3, 0.2), impact_at(2, 0, 1.8e-17, 3, -1.4e-17)});
+  REQUIRE(poundings.size() == 3);
   CHECK(poundings[0].effective_restitution == 0);
+  CHECK(poundings[1].effective_restitution == 0.5);
+  CHECK(poundings[2].effective_restitution == 0);  // rounding at rest is no approach
 }
 
 TEST_CASE("the summary file has every key of the contract and the numbers of the run") {
