@@ -24,15 +24,17 @@ BlockOperator::BlockOperator(const SparseMatrix& matrix, const std::vector<Block
 
 BlockOperator::BlockOperator(const std::vector<MatrixX>& matrices, const std::vector<BlockRange>& rows, const std::vector<BlockRange>& columns) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    MatrixX whole = MatrixX::Zero(rows[i].size(), columns[i].size());
-    whole.topLeftCorner(matrices[i].rows(), matrices[i].cols()) = matrices[i];
+    MatrixX whole = MatrixX::Zero(rows[i].size(), matrices[i].cols());
+    whole.topRows(matrices[i].rows()) = matrices[i];
     add({rows[i], columns[i], PaddedMatrix(whole), {}, {}, {}});
   }
 }
 
 void BlockOperator::add(Block block) {
-  block.padded.resize(static_cast<std::size_t>(block.dense.empty() ? block.sparse.padded_rows() : block.dense.padded_rows()));
-  block.padded2.resize(block.padded.size());
+  if (block.dense.empty()) {
+    block.padded.resize(static_cast<std::size_t>(block.sparse.padded_rows()));
+    block.padded2.resize(block.padded.size());
+  }
   rows_ = std::max(rows_, block.rows.last);
   blocks_.push_back(std::move(block));
 }
@@ -51,30 +53,27 @@ void BlockOperator::multiply(const VectorX& x, VectorX& y) const {
   parallel_for(static_cast<int>(blocks_.size()), threads_, [&](int i) {
     const Block& block = blocks_[static_cast<std::size_t>(i)];
     const double* const from = x.data() + block.columns.first;
-    double* const to = block.padded.data();
-    if (block.dense.empty()) {
-      block.sparse.multiply(from, to);
-    } else {
-      block.dense.multiply(from, to);
-    }
-    std::copy_n(to, block.rows.size(), y.data() + block.rows.first);
+    double* const to = y.data() + block.rows.first;
+    if (!block.dense.empty()) return block.dense.multiply(from, to);
+    block.sparse.multiply(from, block.padded.data());
+    std::copy_n(block.padded.data(), block.rows.size(), to);
   });
 }
 
-void BlockOperator::multiply(const VectorX& x, const VectorX& x2, VectorX& y, VectorX& y2) const {
+void BlockOperator::multiply(const VectorX& start, const VectorX& x, const VectorX& x2, VectorX& y, VectorX& y2) const {
   if (y.size() < rows_) y.resize(rows_);
   if (y2.size() < rows_) y2.resize(rows_);
   for (const Block& block : blocks_) {
+    const int row = block.rows.first, size = block.rows.size();
     const double *const from = x.data() + block.columns.first, *const from2 = x2.data() + block.columns.first;
-    double *const to = block.padded.data(), *const to2 = block.padded2.data();
-    if (block.dense.empty()) {
-      block.sparse.multiply(from, to);
-      block.sparse.multiply(from2, to2);
-    } else {
-      block.dense.multiply(from, from2, to, to2);
+    if (!block.dense.empty()) {
+      block.dense.multiply(start.data() + row, from, from2, y.data() + row, y2.data() + row);
+      continue;
     }
-    std::copy_n(to, block.rows.size(), y.data() + block.rows.first);
-    std::copy_n(to2, block.rows.size(), y2.data() + block.rows.first);
+    block.sparse.multiply(from, block.padded.data());
+    block.sparse.multiply(from2, block.padded2.data());
+    for (int i = 0; i < size; ++i) y[row + i] = start[row + i] + block.padded[static_cast<std::size_t>(i)];
+    std::copy_n(block.padded2.data(), size, y2.data() + row);
   }
 }
 

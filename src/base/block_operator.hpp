@@ -28,8 +28,8 @@ class BlockOperator {
 
   // y = A x; entries of y beyond the blocks' rows stay as they are; x and y may not be the same.
   void multiply(const VectorX& x, VectorX& y) const;
-  // y = A x and y2 = A x2, for less than twice the time of one.
-  void multiply(const VectorX& x, const VectorX& x2, VectorX& y, VectorX& y2) const;
+  // y = start + A x and y2 = A x2, for less than twice the time of one.
+  void multiply(const VectorX& start, const VectorX& x, const VectorX& x2, VectorX& y, VectorX& y2) const;
   int rows() const { return rows_; }
   StoredEntries entries() const;
   // Of multiply(): a thread a block.
@@ -40,7 +40,7 @@ class BlockOperator {
     BlockRange rows, columns;
     PaddedMatrix dense;  // empty when sparse
     ChunkedRows sparse;
-    mutable AlignedVector padded, padded2;  // results with the rows added
+    mutable AlignedVector padded, padded2;  // results of sparse blocks, with whole chunks
   };
   void add(Block block);
   int rows_ = 0, threads_ = 1;

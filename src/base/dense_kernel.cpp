@@ -3,6 +3,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
+
 #include "base/dense_kernel.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -10,39 +12,67 @@ namespace nsframe {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// A block of `vectors` SIMD registers of rows, all columns, for one or two right-hand sides: the sums stay in registers.
+// Writes a register at y + at, or what of it lies below `end`.
+template <class D, class V>
+void store_below(int end, D tag, V value, double* y, int at) {
+  const auto width = static_cast<int>(hn::Lanes(tag));
+  if (at + width <= end) {
+    hn::StoreU(value, tag, y + at);
+  } else if (at < end) {
+    HWY_ALIGN double last[hn::MaxLanes(tag)];
+    hn::Store(value, tag, last);
+    std::copy_n(last, end - at, y + at);
+  }
+}
+
+// A register of y + at, or what of it lies below `end`, and zeros.
+template <class D>
+hn::Vec<D> load_below(int end, D tag, const double* y, int at) {
+  if (at + static_cast<int>(hn::Lanes(tag)) <= end) return hn::LoadU(tag, y + at);
+  HWY_ALIGN double last[hn::MaxLanes(tag)] = {};
+  if (at < end) std::copy_n(y + at, end - at, last);
+  return hn::Load(tag, last);
+}
+
+// A block of `vectors` SIMD registers of rows from `row` on, all columns, for one or two right-hand sides: the sums stay in registers.
 template <int vectors>
-void multiply_rows(const double* A, int rows, int columns, const double* x, double* y) {
+void multiply_rows(const DenseArray& A, int row, const double* x, double* y) {
   const hn::ScalableTag<double> tag;
   const auto width = static_cast<int>(hn::Lanes(tag));
   hn::Vec<decltype(tag)> sum[vectors];
   for (int k = 0; k < vectors; ++k) sum[k] = hn::Zero(tag);
-  for (int j = 0; j < columns; ++j) {
+  for (int j = 0; j < A.columns; ++j) {
+    const double* const column = A.values + static_cast<long>(j) * A.padded_rows + row;
     const auto factor = hn::Set(tag, x[j]);
-    const double* const column = A + static_cast<long>(j) * rows;
     for (int k = 0; k < vectors; ++k) sum[k] = hn::MulAdd(hn::LoadU(tag, column + k * width), factor, sum[k]);
   }
-  for (int k = 0; k < vectors; ++k) hn::StoreU(sum[k], tag, y + k * width);
+#pragma GCC unroll 8  // or the sums would stand in memory
+  for (int k = 0; k < vectors; ++k) store_below(A.rows, tag, sum[k], y, row + k * width);
 }
 
 template <int vectors>
-void multiply_rows(const double* A, int rows, int columns, const double* x, const double* x2, double* y, double* y2) {
+void multiply_rows(const DenseArray& A, int row, const double* start, const double* x, const double* x2, double* y, double* y2) {
   const hn::ScalableTag<double> tag;
   const auto width = static_cast<int>(hn::Lanes(tag));
   hn::Vec<decltype(tag)> sum[vectors], sum2[vectors];
-  for (int k = 0; k < vectors; ++k) sum[k] = sum2[k] = hn::Zero(tag);
-  for (int j = 0; j < columns; ++j) {
+#pragma GCC unroll 8  // or the sums would stand in memory
+  for (int k = 0; k < vectors; ++k) {
+    sum[k] = start ? load_below(A.rows, tag, start, row + k * width) : hn::Zero(tag);
+    sum2[k] = hn::Zero(tag);
+  }
+  for (int j = 0; j < A.columns; ++j) {
+    const double* const column = A.values + static_cast<long>(j) * A.padded_rows + row;
     const auto factor = hn::Set(tag, x[j]), factor2 = hn::Set(tag, x2[j]);
-    const double* const column = A + static_cast<long>(j) * rows;
     for (int k = 0; k < vectors; ++k) {
       const auto entry = hn::LoadU(tag, column + k * width);
       sum[k] = hn::MulAdd(entry, factor, sum[k]);
       sum2[k] = hn::MulAdd(entry, factor2, sum2[k]);
     }
   }
+#pragma GCC unroll 8
   for (int k = 0; k < vectors; ++k) {
-    hn::StoreU(sum[k], tag, y + k * width);
-    hn::StoreU(sum2[k], tag, y2 + k * width);
+    store_below(A.rows, tag, sum[k], y, row + k * width);
+    store_below(A.rows, tag, sum2[k], y2, row + k * width);
   }
 }
 
@@ -70,12 +100,12 @@ void over_rows(int rows, const Block& block) {
   }
 }
 
-void multiply_target(const double* A, int rows, int columns, const double* x, double* y) {
-  over_rows<8>(rows, [=]<int n>(int row) { multiply_rows<n>(A + row, rows, columns, x, y + row); });
+void multiply_target(const DenseArray& A, const double* x, double* y) {
+  over_rows<8>(A.padded_rows, [&]<int n>(int row) { multiply_rows<n>(A, row, x, y); });
 }
 
-void multiply_two_target(const double* A, int rows, int columns, const double* x, const double* x2, double* y, double* y2) {
-  over_rows<6>(rows, [=]<int n>(int row) { multiply_rows<n>(A + row, rows, columns, x, x2, y + row, y2 + row); });
+void multiply_two_target(const DenseArray& A, const double* start, const double* x, const double* x2, double* y, double* y2) {
+  over_rows<6>(A.padded_rows, [&]<int n>(int row) { multiply_rows<n>(A, row, start, x, x2, y, y2); });
 }
 
 void chunks_target(int chunks, bool backward, const int* begins, const int* ends, const int* columns, const double* values, const double* x,
@@ -119,12 +149,10 @@ HWY_EXPORT(multiply_target);
 HWY_EXPORT(multiply_two_target);
 HWY_EXPORT(chunks_target);
 
-void dense_multiply(const double* A, int rows, int columns, const double* x, double* y) {
-  HWY_DYNAMIC_DISPATCH(multiply_target)(A, rows, columns, x, y);
-}
+void dense_multiply(const DenseArray& A, const double* x, double* y) { HWY_DYNAMIC_DISPATCH(multiply_target)(A, x, y); }
 
-void dense_multiply(const double* A, int rows, int columns, const double* x, const double* x2, double* y, double* y2) {
-  HWY_DYNAMIC_DISPATCH(multiply_two_target)(A, rows, columns, x, x2, y, y2);
+void dense_multiply(const DenseArray& A, const double* start, const double* x, const double* x2, double* y, double* y2) {
+  HWY_DYNAMIC_DISPATCH(multiply_two_target)(A, start, x, x2, y, y2);
 }
 
 void apply_chunks(int chunks, bool backward, const int* begin, const int* end, const int* columns, const double* values, const double* x,

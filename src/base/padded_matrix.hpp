@@ -9,14 +9,15 @@ class PaddedMatrix {
  public:
   PaddedMatrix() = default;
   explicit PaddedMatrix(const MatrixX& matrix);
-  bool empty() const { return values_.empty(); }
+  bool empty() const { return rows_ == 0; }
   int padded_rows() const { return padded_rows_; }
-  // y = A x, and y2 = A x2 in one pass; y: padded_rows(). x and y may not overlap.
+  // y = A x; x and y may not overlap.
   void multiply(const double* x, double* y) const;
-  void multiply(const double* x, const double* x2, double* y, double* y2) const;
+  // y = start + A x and y2 = A x2 in one pass; without `start` where it is null.
+  void multiply(const double* start, const double* x, const double* x2, double* y, double* y2) const;
 
  private:
-  int padded_rows_ = 0, columns_ = 0;
+  int rows_ = 0, padded_rows_ = 0, columns_ = 0;
   AlignedVector values_;
 };
 

@@ -71,7 +71,7 @@ void CoupledMotion::begin(const ModalState& from) {
       set.room[i] = from.f0[places[static_cast<std::size_t>(i)]];
       set.room2[i] = from.f1[places[static_cast<std::size_t>(i)]];
     }
-    set.load.multiply(set.room.data(), set.room2.data(), set.b0.data(), set.b1.data());
+    set.load.multiply(nullptr, set.room.data(), set.room2.data(), set.b0.data(), set.b1.data());
   }
 }
 

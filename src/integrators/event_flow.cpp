@@ -118,6 +118,10 @@ const std::vector<double>& EventFlow::cuts(const System& system, double time, do
       if (at > close) cuts.push_back(at);
     }
   }
+  if (cuts.empty()) {
+    cuts.push_back(h);
+    return cuts;
+  }
   const double quantum = h * time_quantum;
   for (double& cut : cuts) cut = std::round(cut / quantum) * quantum;
   cuts.push_back(h);
@@ -188,8 +192,7 @@ void EventFlow::add_contact_load(VectorX& load) const {
 
 void EventFlow::write(VectorX& displacement, VectorX& velocity) {
   propagator_.coupled().set_rates(state_);
-  modes_.shape.multiply(state_.x, state_.y, displacement, velocity);
-  displacement += modes_.rest;
+  modes_.shape.multiply(modes_.rest, state_.x, state_.y, displacement, velocity);
   propagator_.coupled().clear_rates(state_);
   if (closed_pairs(true).empty()) return;
   displacement += modes_.massless_response * compliant_forces(contact_.constant + modes_.gap * state_.x);

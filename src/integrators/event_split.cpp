@@ -183,8 +183,7 @@ void EventSplit::check_gaps(const System& system, double time, double h) const {
 }
 
 void EventSplit::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
-  result = StepResult{};
-  result.least_gap = std::numeric_limits<double>::infinity();
+  result.clear();
   const bool fresh = !std::exchange(goes_on_, false);  // a step that fails leaves contact somewhere: the next one then begins afresh
   now_ = {committed.displacement, committed.velocity, committed.internal_force, fresh ? VectorX() : std::move(now_.a), {}};
   step_impulse_.setZero();

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
 #include <utility>
 
 #include "base/errors.hpp"
@@ -27,8 +26,7 @@ Exact::Exact(const AnalysisOptions& options, const System& system)
     : flow_(options, linear_only(system, options.scheme_at), system.assembler.tangent()) {}
 
 void Exact::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
-  result = StepResult{};
-  result.least_gap = std::numeric_limits<double>::infinity();
+  result.clear();
   const bool fresh = !std::exchange(goes_on_, false);
   if (fresh) flow_.start(system, committed);
   flow_.clear_impulse();

@@ -10,35 +10,35 @@ namespace {
 constexpr std::size_t most_steps = 64;
 
 // Impulse response B and its integrals by their Taylor series: for (w + 2 a) s up to 1.
-StepCoefficients by_series(long double square, long double a, long double s) {
-  StepCoefficients c{0, 0, 0, 0, 0};
-  long double before = 0, r = 1, power = s;  // r: n-th derivative of the impulse response at 0; power: s^n / n!
-  long double slope = 0;                     // B'
-  long double previous_power = 1, last = 1;
-  for (int n = 1; n <= 30; ++n) {
-    const long double term = std::abs(r * previous_power);
+StepCoefficients by_series(long double square, long double a, const TaylorPowers& power) {
+  long double A = 0, B = 0, L = 0, R = 0, Q = 0;   // A: of B'
+  long double before = 0, r = 1, last = 1;         // r: n-th derivative of the impulse response at 0
+  for (int n = 1; n <= TaylorPowers::terms; ++n) {
+    const long double slope = r * power[n - 1], term = std::abs(slope);
     if (std::max(term, last) < 0x1p-68L) break;  // two in turn too small to change a sum: the rest are smaller
     last = term;
-    slope += r * previous_power;
-    c.B += r * power;
-    c.L += r * power * s / (n + 1);
-    c.R += r * power * s * s / ((n + 1) * (n + 2));
-    c.Q += r * power * s * s * s / ((n + 1) * (n + 2) * (n + 3));
+    A += slope;
+    B += r * power[n];
+    L += r * power[n + 1];
+    R += r * power[n + 2];
+    Q += r * power[n + 3];
     const long double next = -2 * a * r - square * before;
     before = r;
     r = next;
-    previous_power = power;
-    power *= s / (n + 1);
   }
-  c.A = slope + 2 * a * c.B;
-  return c;
+  return {A + 2 * a * B, B, L, R, Q};
 }
 
 }  // namespace
 
-StepCoefficients step_coefficients(long double square, long double a, long double s) {
-  const long double w = std::sqrt(square);
-  if ((w + 2 * a) * s <= 1) return by_series(square, a, s);
+TaylorPowers::TaylorPowers(long double time) : s(time) {
+  power_[0] = 1;
+  for (std::size_t k = 1; k < power_.size(); ++k) power_[k] = power_[k - 1] * s / static_cast<long double>(k);
+}
+
+StepCoefficients step_coefficients(long double square, long double a, const TaylorPowers& powers) {
+  const long double s = powers.s, w = std::sqrt(square);
+  if ((w + 2 * a) * s <= 1) return by_series(square, a, powers);
   if (square == 0) {  // drag alone
     const long double B = -std::expm1(-2 * a * s) / (2 * a), L = (s - B) / (2 * a), R = (s * s / 2 - L) / (2 * a);
     return {1, B, L, R, (s * s * s / 6 - R) / (2 * a)};
@@ -101,9 +101,10 @@ const Propagator::Step& Propagator::find(double s) {
     step.arrays[high][k] = static_cast<double>(value);
     step.arrays[high + 4][k] = static_cast<double>(value - static_cast<long double>(step.arrays[high][k]));
   };
+  const TaylorPowers powers(s);
   for (int k = 0; k < modes_.padded; ++k) {
     const long double w2 = modes_.square[k], a = modes_.decay[k];
-    const StepCoefficients c = step_coefficients(w2, a, s);
+    const StepCoefficients c = step_coefficients(w2, a, powers);
     split(0, k, c.A);
     split(1, k, c.B);
     split(2, k, -w2 * c.B);

@@ -14,8 +14,20 @@ namespace nsframe {
 struct StepCoefficients {
   long double A, B, L, R, Q;
 };
+// s^k / k!, for all modes that move on by the same time s.
+class TaylorPowers {
+ public:
+  static constexpr int terms = 30;
+  explicit TaylorPowers(long double s);
+  long double operator[](int k) const { return power_[static_cast<std::size_t>(k)]; }
+  const long double s;
+
+ private:
+  std::array<long double, terms + 4> power_;
+};
 // Of one mode with w^2 = square and any damping a, after a time s.
-StepCoefficients step_coefficients(long double square, long double a, long double s);
+StepCoefficients step_coefficients(long double square, long double a, const TaylorPowers& powers);
+inline StepCoefficients step_coefficients(long double square, long double a, long double s) { return step_coefficients(square, a, TaylorPowers(s)); }
 
 class Propagator {
  public:

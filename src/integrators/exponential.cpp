@@ -163,7 +163,7 @@ bool Exponential::advance(System& system, double time, double s, bool starting, 
     evaluate(system, shown_, expected_massless_, committed, trial);
   } else {
     flow_.copy_to(before_);
-    tried_ = StepResult{};
+    tried_.clear();
     flow_.travel(system, time, s, starting, tried_);
     show(flow_.modal(), s, true, shown_);
     evaluate(system, shown_, expected_massless_, committed, trial);
@@ -187,8 +187,7 @@ bool Exponential::advance(System& system, double time, double s, bool starting, 
 }
 
 void Exponential::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
-  result = StepResult{};
-  result.least_gap = std::numeric_limits<double>::infinity();
+  result.clear();
   const bool fresh = !std::exchange(goes_on_, false);  // a step that fails leaves the flow somewhere: the next one then begins afresh
   if (fresh) start(system, committed);
   flow_.clear_impulse();

@@ -27,9 +27,10 @@ double fall(const std::array<double, 4>& b, int depth) {
     double low = 0, high = 1;
     double t = b[0] / (b[0] - b[3]);
     for (int i = 0; i < 100 && high - low > 1e-17; ++i) {
-      const double value = cubic(b, t);
+      const double value = cubic(b, t), u = 1 - t;
+      if (std::abs(value) <= machine_epsilon * (u * u * u * b[0] - t * t * t * b[3])) break;  // less than its largest terms are rounded by
       (value > 0 ? low : high) = t;
-      const double u = 1 - t, slope = 3 * (u * u * (b[1] - b[0]) + 2 * u * t * (b[2] - b[1]) + t * t * (b[3] - b[2]));
+      const double slope = 3 * (u * u * (b[1] - b[0]) + 2 * u * t * (b[2] - b[1]) + t * t * (b[3] - b[2]));
       const double next = slope < 0 ? t - value / slope : -1;
       const double chosen = next > low && next < high ? next : 0.5 * (low + high);
       if (chosen == t) break;

@@ -37,7 +37,6 @@ MoreauJean::MoreauJean(const AnalysisOptions& options, const System& system)
 void MoreauJean::find_active_pairs(const System& system, const State& committed, double h, StepResult& result) {
   const Contacts& contacts = system.contacts();
   active_.clear();
-  result.least_gap = std::numeric_limits<double>::infinity();
   if (contacts.size() == 0) return;
   system.gaps(committed.displacement, committed.time, gap_);
   system.gap_rates(committed.velocity, committed.time, rate_);
@@ -230,10 +229,7 @@ class MoreauJean::Step : public NonlinearStep {
 };
 
 void MoreauJean::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
-  result.impacts.clear();
-  result.newton_iterations = result.solves = 0;
-  result.jumps.clear();
-  result.slips.clear();
+  result.clear();
   contact_change_.resize(0);
   find_active_pairs(system, committed, h, result);
   result.active_pairs = static_cast<int>(active_.size()) + forces_.count();
@@ -292,7 +288,6 @@ void MoreauJean::report(const System& system, const State& committed, State& tri
   result.input = load_.dot(mid_velocity_);
   result.numerical = momentum_change_.dot(trial.velocity - committed.velocity) + h * mid_velocity_.dot(trial.internal_force - committed.internal_force);
   result.damping = dissipated_;
-  result.contact = 0;
   trial.impulse.setZero(contacts.size());
   for (std::size_t k = 0; k < active_.size(); ++k) {
     const double p = impulse_[static_cast<Eigen::Index>(k)];

@@ -74,7 +74,6 @@ void MoreauJean::add_friction_response(const Contacts& contacts, double factor, 
 
 void MoreauJean::report_simultaneous(const System& system, const State& committed, const State& trial, double h, StepResult& result) const {
   const Contacts& contacts = system.contacts();
-  result.friction = result.created = 0;
   if (active_.empty() || impulse_.maxCoeff() <= 0) return;
   const int rows = contacts.frictional() ? 3 : 1;
   const auto count = static_cast<Eigen::Index>(active_.size());

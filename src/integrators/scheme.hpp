@@ -2,8 +2,9 @@
 // schemes.cpp and one test.
 #pragma once
 
-#include <optional>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +15,7 @@
 
 namespace nsframe {
 
-// What one accepted step did.
-struct StepResult {
+struct StepFigures {
   int newton_iterations = 0;
   int evaluations = 0;               // of all elements, where the scheme counts them
   int stiffened_steps = 0;           // made by the implicit form of alpha-OS (alpha_os.cpp)
@@ -25,16 +25,29 @@ struct StepResult {
   int active_pairs = 0;
   double residual = 0;               // relative
   double complementarity_error = 0;
-  double least_gap = 0;              // at the start of the step [m]
-  std::vector<Impact> impacts;
-  std::vector<VelocityJump> jumps;   // in the order of time
-  std::vector<Attempt> attempts;     // of the solution algorithms, also when the step failed
-  std::vector<Slip> slips;           // of pairs with friction in contact
+  double least_gap = std::numeric_limits<double>::infinity();  // at the start of the step [m]
   std::optional<double> kinetic;     // energy at the end, where it is not that of all velocities: some follow without inertia [J]
   double created = 0;                // by restitution in simultaneous impacts [J]
   Accumulations accumulations;       // ended in this step
   // increments over the step [J]; kinetic and strain energy are those of Energy
   double strain = 0, damping = 0, contact = 0, friction = 0, numerical = 0, input = 0;
+};
+
+// What one accepted step did.
+struct StepResult : StepFigures {
+  std::vector<Impact> impacts;
+  std::vector<VelocityJump> jumps;   // in the order of time
+  std::vector<Attempt> attempts;     // of the solution algorithms, also when the step failed
+  std::vector<Slip> slips;           // of pairs with friction in contact
+
+  // As new; the lists keep their room.
+  void clear() {
+    static_cast<StepFigures&>(*this) = {};
+    impacts.clear();
+    jumps.clear();
+    attempts.clear();
+    slips.clear();
+  }
 };
 
 class Scheme {

@@ -93,9 +93,10 @@ SustainedContact::SustainedContact(const ExactModes& modes, Propagator& propagat
   for (const double u : g.point) {
     for (const double v : g.point) {
       const double s = u * length_ * (1 - v);
+      const TaylorPowers powers(s);
       for (int k = 0; k < modes.padded; ++k) {
         const long double w2 = modes.square[k], a = modes.decay[k];
-        const StepCoefficients c = step_coefficients(w2, a, s);
+        const StepCoefficients c = step_coefficients(w2, a, powers);
         response[k] = static_cast<double>(c.B);
         second[k] = static_cast<double>(-2 * a * (c.A - 2 * a * c.B) - w2 * c.B);
       }

@@ -84,16 +84,15 @@ class TimeHistory {
   void add(const StepResult& step, double time);
   void watch_energy(const State& state, std::optional<double> kinetic);
   bool stop_now();
+  double observer_seconds() const { return earlier_observer_seconds_ + clock_.apart_seconds(); }
+  bool save_is_due();
   void save(const State& committed);
   void restore(State& committed);
 
   template <class Call>
   void observe(const Call& call) {
     if (observers_.empty()) return;
-    const double before = clock_.seconds();
-    call();
-    seconds_ = clock_.seconds();
-    result_.observer_seconds += seconds_ - before;
+    clock_.apart(call);
   }
   template <class Call>
   void each_observer(const Call& call) {
@@ -107,15 +106,17 @@ class TimeHistory {
   const RunControl& control_;
   ShownStates shown_;
   TimeHistoryResult result_;
+  RunSums before_halving_;  // before the step whose first attempt failed
   StepReport report_;
   StepResult step_;
   std::vector<Impact> step_impacts_;
   VectorX support_force_;      // of moved supports along each motion, at the end of the last step [N]
   double support_kinetic_ = 0;  // what they add to the kinetic energy [J]
   double start_ = 0;           // of the time history [s]
-  Timer clock_;
-  double seconds_ = 0, last_save_ = 0;  // on the clock, when observers were last done and when it was last saved [s]
-  double earlier_seconds_ = 0;  // of the run that this one continues
+  SharedTimer clock_;           // apart: observers and snapshots
+  double last_save_ = 0, last_look_ = 0;  // on the clock [s]
+  int unlooked_steps_ = 0, steps_a_look_ = 1;
+  double earlier_seconds_ = 0, earlier_observer_seconds_ = 0;  // of the run that this one continues
 };
 
 void TimeHistory::advance(const State& committed, State& trial, double h, int halvings) {
@@ -125,6 +126,7 @@ void TimeHistory::advance(const State& committed, State& trial, double h, int ha
     if (system_.model.moves_supports()) add_support_work(committed.time, committed.time + h, trial, step_);
     add(step_, committed.time);
   } catch (const ConvergenceError&) {
+    if (halvings == 0) before_halving_ = result_;
     record_ladder(committed);
     if (halvings >= options_.max_halvings || !scheme_.shorter_steps_help()) throw;
     ++result_.halved_steps;
@@ -243,14 +245,13 @@ bool TimeHistory::step(int number, State& committed, State& trial) {
   report_ = StepReport{};
   report_.step = number;
   step_impacts_.clear();
-  const RunSums before = result_;
   try {
     // times from the step number, so that rounding does not add up
     const double end = start_ + number * options_.dt;
     advance(committed, trial, options_.dt, 0);
     trial.time = end;
   } catch (const ConvergenceError& problem) {
-    static_cast<RunSums&>(result_) = before;
+    static_cast<RunSums&>(result_) = before_halving_;
     result_.stop_reason = problem.what();
     return false;
   }
@@ -279,31 +280,42 @@ bool TimeHistory::stop_now() {
   return true;
 }
 
+// The clock is looked at every few steps where many steps fit between two snapshots.
+bool TimeHistory::save_is_due() {
+  if (++unlooked_steps_ < steps_a_look_) return false;
+  unlooked_steps_ = 0;
+  const double now = clock_.seconds(), often = std::min(1e-3 * control_.snapshot_interval, 0.01);
+  steps_a_look_ = now - last_look_ < often ? std::min(2 * steps_a_look_, 1 << 14) : std::max(1, steps_a_look_ / 2);
+  last_look_ = now;
+  return now - last_save_ >= control_.snapshot_interval;
+}
+
 void TimeHistory::save(const State& committed) {
   if (!control_.keep_snapshot) return;
-  const Timer timer;
-  Snapshot snapshot;
-  for (Observer* observer : observers_) observer->save(snapshot);
-  snapshot.put("model.fingerprint", fingerprint(system_.model));
-  nsframe::save(committed, snapshot);
-  scheme_.save(snapshot);
-  snapshot.put("time_history.start", start_);
-  snapshot.put("time_history.wall_seconds", earlier_seconds_ + clock_.seconds());
-  visit_sums(result_, [&](const char* name, auto value) {
-    snapshot.put(std::string("time_history.") + name, static_cast<double>(value));
+  result_.observer_seconds = observer_seconds();
+  clock_.apart([&] {
+    Snapshot snapshot;
+    for (Observer* observer : observers_) observer->save(snapshot);
+    snapshot.put("model.fingerprint", fingerprint(system_.model));
+    nsframe::save(committed, snapshot);
+    scheme_.save(snapshot);
+    snapshot.put("time_history.start", start_);
+    snapshot.put("time_history.wall_seconds", earlier_seconds_ + clock_.seconds());
+    visit_sums(result_, [&](const char* name, auto value) {
+      snapshot.put(std::string("time_history.") + name, static_cast<double>(value));
+    });
+    visit_state_work(system_.assembler.state_work(), [&](const char* name, long value) {
+      snapshot.put(std::string("state_work.") + name, static_cast<double>(value));
+    });
+    for (const Slip& slip : result_.slips) {
+      snapshot.put(fmt::format("time_history.slip.{}", slip.pair), std::vector<double>{slip.distance, slip.energy});
+    }
+    if (system_.model.moves_supports()) snapshot.put("time_history.support_force", support_force_);
+    nsframe::save("time_history.impacts", result_.impacts, snapshot);
+    nsframe::save("time_history.ladder", result_.ladder, snapshot);
+    control_.keep_snapshot(snapshot);
   });
-  visit_state_work(system_.assembler.state_work(), [&](const char* name, long value) {
-    snapshot.put(std::string("state_work.") + name, static_cast<double>(value));
-  });
-  for (const Slip& slip : result_.slips) {
-    snapshot.put(fmt::format("time_history.slip.{}", slip.pair), std::vector<double>{slip.distance, slip.energy});
-  }
-  if (system_.model.moves_supports()) snapshot.put("time_history.support_force", support_force_);
-  nsframe::save("time_history.impacts", result_.impacts, snapshot);
-  nsframe::save("time_history.ladder", result_.ladder, snapshot);
-  control_.keep_snapshot(snapshot);
-  result_.observer_seconds += timer.seconds();
-  last_save_ = clock_.seconds();
+  last_save_ = last_look_ = clock_.seconds();
 }
 
 void TimeHistory::restore(State& committed) {
@@ -330,6 +342,7 @@ void TimeHistory::restore(State& committed) {
     support_kinetic_ = system_.support_kinetic_energy(committed.velocity, committed.time);
   }
   earlier_seconds_ = snapshot.number("time_history.wall_seconds");
+  earlier_observer_seconds_ = result_.observer_seconds;
   result_.impacts = restore_impacts("time_history.impacts", snapshot);
   result_.ladder = restore_ladder("time_history.ladder", snapshot);
 }
@@ -345,8 +358,7 @@ TimeHistoryResult TimeHistory::run(double duration, State& committed) {
   const bool saves = control_.keep_snapshot && control_.snapshot_interval > 0;
   while (result_.steps < steps && !stop_now() && step(result_.steps + 1, committed, trial)) {
     std::swap(committed, trial);
-    if (observers_.empty()) seconds_ = clock_.seconds();
-    if (saves && seconds_ - last_save_ >= control_.snapshot_interval) save(committed);
+    if (saves && save_is_due()) save(committed);
   }
   result_.completed = result_.steps == steps;
   save(committed);
@@ -360,6 +372,7 @@ TimeHistoryResult TimeHistory::run(double duration, State& committed) {
     result_.max_penetration = std::max(result_.max_penetration, -gap.minCoeff());
   }
   observe([&] { each_observer([](Observer& observer) { observer.finish(); }); });
+  result_.observer_seconds = observer_seconds();
   result_.step_seconds = earlier_seconds_ + clock_.seconds() - result_.observer_seconds;
   return std::move(result_);
 }
