@@ -221,7 +221,7 @@ VectorX EventFlow::compliant_forces(const VectorX& gap) const {
 // With the forces of the flight that has just been found: of rigid pairs they do no work, of compliant ones they are in the strain.
 void EventFlow::add_energy(double time, double s, StepResult& result) {
   const ModalState& end = flight_.end();
-  FlightEnergy change = propagator_.energy(state_.f0, state_.f1, state_, end, s);
+  FlightEnergy change = flight_.energy(s);
   change.work += sustained_.work(state_.f1, flight_.forces(), s);
   double springs = 0, rest = 0;
   if (!contact_.closed.empty()) {

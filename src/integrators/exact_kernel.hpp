@@ -34,6 +34,13 @@ struct ModalSize {
 // `raised`: square / (square - decay^2).
 ModalSize modal_size(int padded, const FlightArrays& flight, const double* raised);
 
+// apply_step() into x_after, y_after, sum_energy() of all loads and modal_size() in one pass.
+struct FlightSums {
+  FlightEnergy energy;
+  ModalSize size;
+};
+FlightSums step_and_sum(int padded, double s, const StepArrays& step, const FlightArrays& flight, const double* raised, double* x_after, double* y_after);
+
 // gap = G x, rate = G y; G: pairs x padded, by rows.
 void multiply_gaps(int padded, int pairs, const double* G, const double* x, const double* y, double* gap, double* rate);
 

@@ -117,13 +117,34 @@ const Propagator::Step& Propagator::find(double s) {
   return step;
 }
 
-void Propagator::step(const ModalState& from, double s, ModalState& after) {
-  const auto& c = find(s).arrays;
+namespace {
+
+StepArrays pointers(const std::array<VectorX, 12>& c) {
+  return {c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),  c[5].data(),
+          c[6].data(), c[7].data(), c[8].data(), c[9].data(), c[10].data(), c[11].data()};
+}
+
+}  // namespace
+
+FlightArrays Propagator::arrays_of(const ModalState& from) const {
+  const ExactModes& m = modes_;
+  return {m.square.data(), m.decay.data(), m.flexibility.data(), from.x.data(), from.y.data(), from.f0.data(), from.f1.data(), nullptr, nullptr};
+}
+
+FlightSums Propagator::step_and_sum(const ModalState& from, double s, ModalState& after) {
   after.x.resize(modes_.padded);
   after.y.resize(modes_.padded);
-  const StepArrays arrays{c[0].data(), c[1].data(), c[2].data(), c[3].data(), c[4].data(),  c[5].data(),
-                          c[6].data(), c[7].data(), c[8].data(), c[9].data(), c[10].data(), c[11].data()};
-  apply_step(modes_.padded, arrays, from.x.data(), from.y.data(), from.f0.data(), from.f1.data(), after.x.data(), after.y.data());
+  const FlightSums sums =
+      nsframe::step_and_sum(modes_.padded, s, pointers(find(s).arrays), arrays_of(from), raised_.data(), after.x.data(), after.y.data());
+  after.f0 = from.f0 + s * from.f1;
+  after.f1 = from.f1;
+  return sums;
+}
+
+void Propagator::step(const ModalState& from, double s, ModalState& after) {
+  after.x.resize(modes_.padded);
+  after.y.resize(modes_.padded);
+  apply_step(modes_.padded, pointers(find(s).arrays), from.x.data(), from.y.data(), from.f0.data(), from.f1.data(), after.x.data(), after.y.data());
   coupled_.at(s, after, true);
   after.f0 = from.f0 + s * from.f1;
   after.f1 = from.f1;
@@ -148,11 +169,7 @@ void Propagator::derivatives(const ModalState& state, Eigen::Matrix<double, Eige
 }
 
 ModalSize Propagator::size(const ModalState& state) const {
-  const ExactModes& m = modes_;
-  return modal_size(m.padded,
-                    {m.square.data(), m.decay.data(), m.flexibility.data(), state.x.data(), state.y.data(), state.f0.data(), state.f1.data(), nullptr,
-                     nullptr},
-                    raised_.data());
+  return modal_size(modes_.padded, arrays_of(state), raised_.data());
 }
 
 void Propagator::bound_fourth(const ModalState& state, VectorX& pairs) {
@@ -187,10 +204,10 @@ void Propagator::bound_fourth(const ModalState& state, VectorX& pairs) {
 
 FlightEnergy Propagator::energy(const VectorX& f0, const VectorX& f1, const ModalState& from, const ModalState& to, double s) {
   const ExactModes& m = modes_;
-  FlightEnergy energy = sum_energy(m.padded, s,
-                                   {m.square.data(), m.decay.data(), m.flexibility.data(), from.x.data(), from.y.data(), from.f0.data(),
-                                    from.f1.data(), to.x.data(), to.y.data()},
-                                   f0.data(), f1.data());
+  FlightArrays arrays = arrays_of(from);
+  arrays.x_after = to.x.data();
+  arrays.y_after = to.y.data();
+  FlightEnergy energy = sum_energy(m.padded, s, arrays, f0.data(), f1.data());
   for (const int k : m.special) {  // without flexibility: int x dt by the response's own integrals; A = B' + 2 a B
     if (f1[k] == 0) continue;
     const StepCoefficients c = step_coefficients(m.square[k], m.decay[k], s);

@@ -44,6 +44,8 @@ class Propagator {
   // The same by coefficients that are kept for further steps of that length. `s` is best of few values; these are found
   // to more digits than double has, so that no energy is lost or gained in millions of steps.
   void step(const ModalState& from, double s, ModalState& after);
+  // The same where all modes are oscillators, with energy() of all loads and size() of the start.
+  FlightSums step_and_sum(const ModalState& from, double s, ModalState& after);
 
   // Derivatives n = 0..6 of the modal displacements, by columns.
   void derivatives(const ModalState& state, Eigen::Matrix<double, Eigen::Dynamic, 7>& out) const;
@@ -64,6 +66,7 @@ class Propagator {
     std::array<VectorX, 12> arrays;
   };
   const Step& find(double s);
+  FlightArrays arrays_of(const ModalState& from) const;
   const ExactModes& modes_;
   CoupledMotion coupled_;
   std::vector<Step> steps_;

@@ -23,8 +23,7 @@ Flight::Flight(const ExactModes& modes, Propagator& propagator, SustainedContact
   row_size_ = modes.gap.rowwise().norm();
 }
 
-bool Flight::stays_far(const VectorX& gap, const VectorX& rate, double length) const {
-  const ModalSize size = propagator_.size(*state_);
+bool Flight::stays_far(const VectorX& gap, const VectorX& rate, double length, const ModalSize& size) const {
   const double fourth = std::sqrt(size.energy) * length * length * length * length / 384, x = std::sqrt(size.square);
   for (int c = 0; c < modes_.pairs(); ++c) {
     // the cubic through the ends' values and slopes, and what the gap may differ from it
@@ -179,7 +178,7 @@ FlightEvent Flight::find(const ModalState& state, const ContactState& contact, c
                          bool disturbed) {
   state_ = &state;
   contact_ = &contact;
-  have_derivatives_ = false;
+  have_derivatives_ = have_energy_ = false;
   propagator_.begin(state);
   const int pairs = modes_.pairs();
   FlightEvent event{length, FlightEvent::Kind::none, -1};
@@ -192,7 +191,14 @@ FlightEvent Flight::find(const ModalState& state, const ContactState& contact, c
     sample->gap.resize(pairs);
     sample->rate.resize(pairs);
   }
+  const auto find_gaps = [&](double s) {
+    multiply_gaps(modes_.padded, pairs, modes_.gap.data(), end_.x.data(), end_.y.data(), finish_.gap.data(), finish_.rate.data());
+    finish_.gap += contact.constant;
+    add_compliance(s, finish_.gap, finish_.rate);
+    finish_.time = s;
+  };
   const auto move_to = [&](double s) {
+    have_energy_ = false;
     if (!forces_.empty()) {
       sustained_.move(state, forces_, s, end_);
     } else if (regular && s == length) {
@@ -200,16 +206,20 @@ FlightEvent Flight::find(const ModalState& state, const ContactState& contact, c
     } else {
       propagator_.move(state, s, end_);
     }
-    multiply_gaps(modes_.padded, pairs, modes_.gap.data(), end_.x.data(), end_.y.data(), finish_.gap.data(), finish_.rate.data());
-    finish_.gap += contact.constant;
-    add_compliance(s, finish_.gap, finish_.rate);
-    finish_.time = s;
+    find_gaps(s);
   };
   const bool open = contact.closed.empty() && std::none_of(contact.touching.begin(), contact.touching.end(), [](bool touches) { return touches; });
   bool moved = false;
   if (open && far_factor_.size() > 0) {
-    move_to(length);
-    if (stays_far(gap, rate, length)) {
+    if (regular) {
+      sums_ = propagator_.step_and_sum(state, length, end_);
+      have_energy_ = true;
+    } else {
+      propagator_.move(state, length, end_);
+      sums_.size = propagator_.size(state);
+    }
+    find_gaps(length);
+    if (stays_far(gap, rate, length, sums_.size)) {
       bound_holds_ = bound_holds_ && !disturbed;
       event.far = true;
       return event;

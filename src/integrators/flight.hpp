@@ -37,6 +37,8 @@ class Flight {
   const VectorX& end_gap() const { return finish_.gap; }
   const VectorX& end_rate() const { return finish_.rate; }
   const ContactForces& forces() const { return forces_; }
+  // That of all loads over the flight, from Propagator::energy().
+  FlightEnergy energy(double length) { return have_energy_ ? sums_.energy : propagator_.energy(state_->f0, state_->f1, *state_, end_, length); }
   // Gap rounding counts as zero up to here [m], of a flight that was not far.
   double tolerance(int pair) const { return tolerance_[pair]; }
   long evaluations() const { return evaluations_; }
@@ -50,7 +52,7 @@ class Flight {
     VectorX gap, rate;
   };
   // Whether no pair can have come near on the way from these gaps to those of finish_, by bounds that cost one pass over the modes.
-  bool stays_far(const VectorX& gap, const VectorX& rate, double length) const;
+  bool stays_far(const VectorX& gap, const VectorX& rate, double length, const ModalSize& size) const;
   void bound(double length, bool disturbed);
   void evaluate(double s, Sample& sample);
   void add_compliance(double s, VectorX& gap, VectorX& rate) const;
@@ -75,6 +77,8 @@ class Flight {
   Eigen::Matrix<double, Eigen::Dynamic, 7> mode_derivatives_;
   bool have_derivatives_ = false;
   bool bound_holds_ = false;
+  FlightSums sums_;
+  bool have_energy_ = false;      // in sums_
   long evaluations_ = 0;
 };
 

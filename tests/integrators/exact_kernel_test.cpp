@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+
 #include "base/block_operator.hpp"
 #include "base/dense_kernel.hpp"
 #include "tests/support/numbers.hpp"
@@ -61,5 +63,33 @@ TEST_CASE("exact kernel: work, strain and kinetic energy of a flight are plain s
     CHECK(energy.work == doctest::Approx(work).epsilon(1e-13));
     CHECK(energy.strain == doctest::Approx(strain).epsilon(1e-13));
     CHECK(energy.kinetic == doctest::Approx(kinetic).epsilon(1e-13));
+  });
+}
+
+TEST_CASE("exact kernel: step, energies and size in one pass are those of three") {
+  std::srand(3);
+  test::on_every_simd_target([](const std::string&) {
+    constexpr int n = 3 * dense_row_padding;
+    const double s = 0.3;
+    std::array<VectorX, 20> a;
+    for (VectorX& array : a) array = VectorX::Random(n);
+    const StepArrays step{a[0].data(), a[1].data(), a[2].data(), a[3].data(), a[4].data(),  a[5].data(),
+                          a[6].data(), a[7].data(), a[8].data(), a[9].data(), a[10].data(), a[11].data()};
+    const VectorX &f0 = a[12], &f1 = a[13], &x = a[14], &y = a[15], &raised = a[16];
+    FlightArrays flight{a[17].data(), a[18].data(), a[19].data(), x.data(), y.data(), f0.data(), f1.data(), nullptr, nullptr};
+    VectorX x1(n), y1(n), x2(n), y2(n);
+    apply_step(n, step, x.data(), y.data(), f0.data(), f1.data(), x1.data(), y1.data());
+    const ModalSize size = modal_size(n, flight, raised.data());
+    const FlightSums sums = step_and_sum(n, s, step, flight, raised.data(), x2.data(), y2.data());
+    flight.x_after = x1.data();
+    flight.y_after = y1.data();
+    const FlightEnergy energy = sum_energy(n, s, flight, f0.data(), f1.data());
+    CHECK(x1 == x2);
+    CHECK(y1 == y2);
+    CHECK(sums.energy.work == doctest::Approx(energy.work).epsilon(1e-13));
+    CHECK(sums.energy.strain == doctest::Approx(energy.strain).epsilon(1e-13));
+    CHECK(sums.energy.kinetic == doctest::Approx(energy.kinetic).epsilon(1e-13));
+    CHECK(sums.size.energy == doctest::Approx(size.energy).epsilon(1e-13));
+    CHECK(sums.size.square == doctest::Approx(size.square).epsilon(1e-13));
   });
 }
