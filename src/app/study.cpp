@@ -9,6 +9,7 @@
 
 #include "base/errors.hpp"
 #include "output/files.hpp"
+#include "output/numerical_warnings.hpp"
 #include "output/poundings.hpp"
 #include "output/summary.hpp"
 #include "study/report.hpp"

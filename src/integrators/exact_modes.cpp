@@ -85,6 +85,48 @@ MatrixX left_out_flexibility(const BlockModes& modes) {
   return modes.left_out * modes.left_out_square.cwiseInverse().asDiagonal() * modes.left_out.transpose();
 }
 
+// Modes of one structure under its stiffness, those above `highest` apart.
+BlockModes modes_of_structure(const System& system, const SparseMatrix& stiffness, std::size_t structure, double highest) {
+  const BlockRange& range = system.assembler.blocks()[structure];
+  if (range.size() == 0) return {VectorX(0), MatrixX(0, 0), MatrixX(0, 0), MatrixX(0, 0)};
+  const MatrixX K(extract_block(stiffness, range)), M(extract_block(system.model.mass, range));
+  const bool may_move_freely = system.model.structures[structure].may_move_freely;
+  BlockModes block = range.size() <= long_double_limit ? solve_block<long double>(K, M, may_move_freely) : solve_block<double>(K, M, may_move_freely);
+  leave_out(highest, block);
+  return block;
+}
+
+// Frequencies and damping of a structure's modes at their places from `first` on, and which of them are no oscillators of their own.
+void place_modes(const BlockModes& block, const BlockDamping& damping, int first, ExactModes& modes) {
+  const auto count = static_cast<int>(block.square.size()), first_order = static_cast<int>(damping.follow.cols());
+  std::vector<bool> coupled(static_cast<std::size_t>(count + first_order), false);
+  for (const DampingCoupling& coupling : damping.couplings) {
+    modes.undamped = false;
+    modes.couplings.push_back(coupling);
+    for (int& place : modes.couplings.back().places) {
+      coupled[static_cast<std::size_t>(place)] = true;
+      place += first;
+    }
+  }
+  modes.flexibility.segment(first + count, first_order).setZero();
+  for (int i = 0; i < count; ++i) {
+    const int k = first + i;
+    const double square = block.square[i], a = 0.5 * damping.decay[i];
+    modes.square[k] = square;
+    modes.decay[k] = a;
+    if (a > 0) modes.undamped = false;
+    if (coupled[static_cast<std::size_t>(i)]) {
+      modes.flexibility[k] = 0;
+    } else if (square < slow * slow || square - a * a < 1e-6 * square) {
+      modes.special.push_back(k);
+      modes.flexibility[k] = 0;
+    } else {
+      modes.damped[k] = std::sqrt(square - a * a);
+      modes.flexibility[k] = 1 / square;
+    }
+  }
+}
+
 // What contact pairs see of the modes.
 void find_contacts(const System& system, const std::vector<BlockModes>& blocks, ExactModes& modes) {
   const Contacts& contacts = system.contacts();
@@ -167,26 +209,20 @@ ExactModes exact_modes(const System& system, const SparseMatrix& stiffness, doub
   const Model& model = system.model;
   const int n = model.dofs.size();
   const std::vector<BlockRange>& ranges = system.assembler.blocks();
-  const MatrixX H = MatrixX(model.contacts.jacobian);
   ExactModes modes;
   modes.dofs = n;
+  const MatrixX H = MatrixX(model.contacts.jacobian);
   std::vector<BlockModes> blocks;
   std::vector<BlockDamping> dampings;
   for (std::size_t b = 0; b < ranges.size(); ++b) {
-    const int size = ranges[b].size();
-    const Structure& structure = model.structures[b];
-    const MatrixX K(extract_block(stiffness, ranges[b])), M(extract_block(model.mass, ranges[b]));
-    BlockModes block = size == 0                    ? BlockModes{VectorX(0), MatrixX(0, 0), MatrixX(0, 0), MatrixX(0, 0)}
-                       : size <= long_double_limit ? solve_block<long double>(K, M, structure.may_move_freely)
-                                                   : solve_block<double>(K, M, structure.may_move_freely);
-    leave_out(highest, block);
+    blocks.push_back(modes_of_structure(system, stiffness, b, highest));
+    const MatrixX K(extract_block(stiffness, ranges[b])), part = H.middleCols(ranges[b].first, ranges[b].size());
     MatrixX C(extract_block(system.damping.viscous, ranges[b]));
     C += system.damping.modal[b] * system.damping.modal[b].transpose();
-    dampings.push_back(block_damping(system, structure, block, K, C, H.middleCols(ranges[b].first, size)));
-    const auto count = static_cast<int>(block.square.size() + dampings.back().follow.cols());
+    dampings.push_back(block_damping(system, model.structures[b], blocks.back(), K, C, part));
+    const auto count = static_cast<int>(blocks.back().square.size() + dampings.back().follow.cols());
     modes.ranges.push_back({modes.padded, modes.padded + (count + dense_row_padding - 1) / dense_row_padding * dense_row_padding});
     modes.padded = modes.ranges.back().last;
-    blocks.push_back(std::move(block));
   }
   modes.square = modes.damped = modes.flexibility = VectorX::Ones(modes.padded);
   modes.decay = VectorX::Zero(modes.padded);
@@ -200,44 +236,19 @@ ExactModes exact_modes(const System& system, const SparseMatrix& stiffness, doub
     const BlockRange &range = ranges[b], &places = modes.ranges[b];
     const int size = range.size();
     const BlockModes& block = blocks[b];
-    BlockDamping& damping = dampings[b];
+    const BlockDamping& damping = dampings[b];
     const auto count = static_cast<int>(block.square.size()), first_order = static_cast<int>(damping.follow.cols());
     const auto left_out = static_cast<int>(block.left_out_square.size());
     modes.massless += size - count - left_out;
     modes.moving += count;
     modes.left_out += left_out;
     const MatrixX flexibility = block.flexibility + left_out_flexibility(block);
-    std::vector<bool> coupled(static_cast<std::size_t>(count + first_order), false);
-    for (DampingCoupling& coupling : damping.couplings) {
-      modes.undamped = false;
-      for (int& place : coupling.places) {
-        coupled[static_cast<std::size_t>(place)] = true;
-        place += places.first;
-      }
-      modes.couplings.push_back(std::move(coupling));
-    }
     MatrixX shape(size, count + first_order), projection(count + first_order, size);
     shape.leftCols(count) = block.shape;
     shape.rightCols(first_order) = damping.follow;
     projection.topRows(count) = block.shape.transpose() * MatrixX(extract_block(model.mass, range));
     projection.bottomRows(first_order) = damping.follow_projection;
-    modes.flexibility.segment(places.first + count, first_order).setZero();
-    for (int i = 0; i < count; ++i) {
-      const int k = places.first + i;
-      const double square = block.square[i], a = 0.5 * damping.decay[i];
-      modes.square[k] = square;
-      modes.decay[k] = a;
-      if (a > 0) modes.undamped = false;
-      if (coupled[static_cast<std::size_t>(i)]) {
-        modes.flexibility[k] = 0;
-      } else if (square < slow * slow || square - a * a < 1e-6 * square) {
-        modes.special.push_back(k);
-        modes.flexibility[k] = 0;
-      } else {
-        modes.damped[k] = std::sqrt(square - a * a);
-        modes.flexibility[k] = 1 / square;
-      }
-    }
+    place_modes(block, damping, places.first, modes);
     modes.static_load.segment(places.first, count) = block.shape.transpose() * system.static_load.segment(range.first, size);
     for (std::size_t i = 0; i < model.motions.size(); ++i) {
       modes.motion_load[i].segment(places.first, count) = block.shape.transpose() * model.motion_load[i].segment(range.first, size);

@@ -1,6 +1,7 @@
 #include "integrators/flight.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,6 +12,7 @@ namespace nsframe {
 namespace {
 
 constexpr double series_angle = 0.05;  // w s up to which a return of a bounce is found from derivatives
+constexpr std::array<double, 7> factorial{1, 1, 2, 6, 24, 120, 720};
 constexpr int most_halvings = 60;
 constexpr double near = 1e-8;          // of the size of what a gap is made of
 
@@ -103,17 +105,17 @@ void Flight::follow_touching(FlightEvent& event) {
     if (rate > 0 && second < 0) {
       double back = -2 * rate / second;
       if (back * modes_.highest < series_angle) {
-        for (int i = 0; i < 20; ++i) {  // Newton on g(s) / s
+        double change = back;
+        for (int i = 0; i < 20 && std::abs(change) > 4 * machine_epsilon * back; ++i) {  // Newton on g(s) / s
           double value = 0, slope = 0;
           for (int n = 6; n >= 1; --n) {
             slope = slope * back + value;
-            value = value * back + d[n] / std::tgamma(n + 1.0);
+            value = value * back + d[n] / factorial[static_cast<std::size_t>(n)];
           }
-          const double change = -value / slope;
+          change = -value / slope;
           back += change;
-          if (!(std::abs(change) > 4 * machine_epsilon * back)) break;
         }
-        if (back > 0) {  // open until then
+        if (back > 0 && std::abs(change) <= 64 * machine_epsilon * back) {  // open until then
           if (back <= event.time) event = {back, FlightEvent::Kind::closes, c};
           skip_[static_cast<std::size_t>(c)] = true;
           continue;

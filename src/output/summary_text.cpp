@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "output/numerical_warnings.hpp"
 #include "output/summary.hpp"
 
 namespace nsframe {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "output/summary.hpp"
+#include "output/numerical_warnings.hpp"
 
 namespace nsframe {
 

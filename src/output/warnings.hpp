@@ -9,7 +9,7 @@
 
 namespace nsframe {
 
-// Of all rules, in their order; also those of numerical_warnings() in summary.hpp, which need no model.
+// Of all rules, in their order; also those of numerical_warnings(), which need no model.
 std::vector<std::string> run_warnings(const Model& model, const Summary& summary);
 
 }  // namespace nsframe

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "output/history_file.hpp"
+#include "output/numerical_warnings.hpp"
 #include "output/summary.hpp"
 #include "tests/output/sample_pair.hpp"
 #include "tests/support/files.hpp"
