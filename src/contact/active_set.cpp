@@ -214,7 +214,7 @@ ContactSolution solve_large(const ContactProblem& problem, const ContactOptions&
 ContactSolution solve_single(double W, double rhs) {
   const double p = rhs < 0 ? -rhs / W : 0;
   const double error = rhs < 0 ? std::abs(std::min(W * p, W * p + rhs)) / -rhs : 0;
-  return {VectorX::Constant(1, p), 1, error, true};
+  return {VectorX::Constant(1, p), 1, error, std::isfinite(p)};
 }
 
 }  // namespace
