@@ -211,10 +211,13 @@ ContactSolution solve_large(const ContactProblem& problem, const ContactOptions&
 }
 
 // One pair alone.
-ContactSolution solve_single(double W, double rhs) {
-  const double p = rhs < 0 ? -rhs / W : 0;
-  const double error = rhs < 0 ? std::abs(std::min(W * p, W * p + rhs)) / -rhs : 0;
-  return {VectorX::Constant(1, p), 1, error, std::isfinite(p)};
+ContactSolution solve_single(const ContactProblem& problem) {
+  ContactSolution solution;
+  solution.impulse = (-problem.rhs / problem.delassus(0, 0)).cwiseMax(0.0);
+  solution.iterations = 1;
+  solution.error = complementarity_error(problem, solution.impulse);
+  solution.converged = std::isfinite(solution.impulse[0]);
+  return solution;
 }
 
 }  // namespace
@@ -222,7 +225,7 @@ ContactSolution solve_single(double W, double rhs) {
 ContactSolution solve_active_set(const ContactProblem& problem, const ContactOptions& options, const VectorX& guess) {
   const Eigen::Index n = problem.rhs.size();
   if (n == 0) return {VectorX(0), 0, 0, true};
-  if (n == 1 && problem.delassus(0, 0) > 0) return solve_single(problem.delassus(0, 0), problem.rhs[0]);
+  if (n == 1 && problem.delassus(0, 0) > 0) return solve_single(problem);
   if (n >= large) {
     const ContactSolution solution = solve_large(problem, options, guess);
     if (solution.converged) return solution;

@@ -15,6 +15,7 @@
 
 namespace nsframe {
 
+// Of a step, what is no list.
 struct StepFigures {
   int newton_iterations = 0;
   int evaluations = 0;               // of all elements, where the scheme counts them
