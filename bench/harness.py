@@ -124,6 +124,19 @@ class Nsframe:
                     history[node] = tuple(flat[6 * i + k::width] for k in range(3))
         return summary, usage, time, history
 
+    def loop_seconds(self, example, settings, repeat, enough):
+        """Times of the step loop, of runs one after another in one process (bench/run_loop.cpp): wall or CPU time, whichever is less."""
+        program = os.path.join(os.path.dirname(self.program), "bench", "bench_run_loop")
+        if not os.access(program, os.X_OK):
+            raise BenchError("there is no program %s; configure with -DNSFRAME_BENCH=ON" % program)
+        scene = os.path.join(ROOT, "examples", example, "scene.toml")
+        done = subprocess.run([program, scene, str(repeat), repr(enough)] + ["%s=%s" % item for item in settings.items()],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace", env={**os.environ, **ONE_THREAD})
+        if done.returncode != 0:
+            raise BenchError("%s\nended with exit code %d:\n%s" % (program, done.returncode, done.stderr[-2000:]))
+        times = json.loads(done.stdout)
+        return [min(pair) for pair in zip(times["wall_s"], times["cpu_s"])]
+
 
 def step_microseconds(summary):
     """Time of the step loop without output, a step [us]."""

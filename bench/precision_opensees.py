@@ -18,7 +18,7 @@ PAIR_SPEED = [("system", ("BandSPD", "ProfileSPD", "UmfPack")), ("algorithm", AL
               ("tolerance", (1e-8, 1e-6))]
 ALGEBRA = ("system", "algorithm", "damping")
 SPEED_END = 1.5   # [s] of motion in which the settings of the pair are tried for speed
-PAIR_STEPS = {"elastic": STEPS, "displacement-based": STEPS[:4]}
+PAIR_STEPS = {"elastic": STEPS, "displacement-based": STEPS[:5]}
 SLOW_STEP, SLOW_PENALTY = 6e-4, 1e8  # at shorter steps than this the softest penalties aren't tried: they bound the error
 
 

@@ -24,7 +24,8 @@ TWO_STORY = [  # case, title, setting and step [s] of every row
     ("displacement-based", "Steel02 fibers, displacement-based", FIBER_ROWS),
     ("force-based", "Steel02 fibers, force-based", FIBER_ROWS),
     (DAMPED, "displacement-based, all modes damped by 2 %", [("exponential", 5e-3), ("exponential", 2e-3), ("exponential", 1e-3),
-                                                             ("exponential, accuracy 5e-4", 5e-3), ("exponential, accuracy 1e-4", 5e-3), (HALF, 1e-3), (HALF, 1e-4)]),
+                                                             ("exponential, accuracy 5e-4", 5e-3), ("exponential, accuracy 5e-4", 1e-3),
+                                                             ("exponential, accuracy 1e-4", 5e-3), (HALF, 1e-3), (HALF, 1e-4)]),
 ]
 
 

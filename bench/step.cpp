@@ -44,6 +44,7 @@ void pair(benchmark::State& state, const std::string& example, const std::string
   long iterations = 0, impacts = 0;
   for (auto _ : state) {
     committed = before;
+    scheme->begin_anew(simulation.system(), committed);
     for (int i = 0; i < steps; ++i) {
       scheme->step(simulation.system(), committed, trial, options.dt, result);
       std::swap(committed, trial);

@@ -29,7 +29,7 @@ FIBER = [(PAPER, 1e-3, 3), (HALF, 1e-3, 3), (HALF, 1e-4, 1), (EXPONENTIAL, 5e-3,
 # setting, dt [s], runs; the first is the setting of the paper
 NSFRAME = {"elastic": [(PAPER, 1e-3, 7), (HALF, 1e-3, 7), (HALF, 1e-4, 3), (HALF, 1e-5, 1), (EXACT, 1e-3, 7), (EXACT, 5e-3, 7)],
            "displacement-based": FIBER, "force-based": FIBER,
-           DAMPED: FIBER + [(EXPONENTIAL, 2e-3, 3), (accurate("5e-4"), 5e-3, 3), (accurate("1e-4"), 5e-3, 3)]}
+           DAMPED: FIBER + [(EXPONENTIAL, 2e-3, 3), (accurate("5e-4"), 1e-3, 3), (accurate("5e-4"), 5e-3, 3), (accurate("1e-4"), 5e-3, 3)]}
 # penalty [N/m], dt [s], runs, duration [s] or None for that of the case; the first is the fastest
 OPENSEES = {"elastic": [(1e8, 1e-3, 3, None), (1e9, 1e-4, 1, 6.0)], "displacement-based": [(1e8, 1e-3, 2, None)],
             "force-based": [(1e8, 1e-3, 2, None)], DAMPED: []}

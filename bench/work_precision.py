@@ -16,35 +16,21 @@ import precision_opensees
 import precision_siconos
 from harness import BenchError, Nsframe, arguments, machine, peer_arguments, peer_python, progress, run_bench, write_files
 from pair import moreau_jean
-from precision_cases import EXACT, INTERVAL, NAMES, STEPS, cases, reference_of, run_nsframe
+from precision_cases import EXACT, INTERVAL, NAMES, STEPS, cases, reference_of, run_nsframe, settings_of
 from precision_report import HALF, PAPER, case_text, compared, draw, verdicts
 from precision_runs import error_of, reason
 
 LONG = 2.0    # [s] of CPU, beyond which a run isn't repeated
-SHORT = 5e-3  # [s] of CPU, below which what a process does at its start and end varies by too much of it
-ENOUGH, MOST_RUNS = 0.5, 9  # short runs are repeated for so long [s], or so often
+ENOUGH = 0.5  # [s] for which short runs are repeated, or thrice as often as others
 EXPONENTIAL = {"analysis.scheme": "exponential"}
-SETTINGS = ([("exact", EXACT, dt) for dt in STEPS[:3]] + [("exponential", EXPONENTIAL, dt) for dt in STEPS]
+SETTINGS = ([("exact", EXACT, dt) for dt in STEPS[:4]] + [("exponential", EXPONENTIAL, dt) for dt in STEPS]
             + [("exponential, accuracy %s" % a, {**EXPONENTIAL, "analysis.accuracy": a}, 5e-3) for a in ("1e-2", "5e-3", "2e-3", "1e-3", "1e-4")]
             + [(name, scheme, dt) for name, scheme in ((HALF, moreau_jean(0.5, 0.5)), (PAPER, moreau_jean(1.0, 1.5))) for dt in STEPS])
-PAIR_SETTINGS = [("exact, modes up to 20 Hz", {**EXACT, "analysis.highest_frequency": "20 Hz"}, 1e-2),
-                 ("exponential, modes up to 10 Hz", {**EXPONENTIAL, "analysis.highest_frequency": "10 Hz"}, 1e-2)]
+PAIR_SETTINGS = [("exact, modes up to 10 Hz", {**EXACT, "analysis.highest_frequency": "10 Hz"}, 2e-2),
+                 ("exact, modes up to 20 Hz", {**EXACT, "analysis.highest_frequency": "20 Hz"}, 1e-2),
+                 *(("exponential, modes up to %s" % f, {**EXPONENTIAL, "analysis.highest_frequency": f}, dt)
+                   for f, dt in (("10 Hz", 2e-2), ("10 Hz", 1e-2), ("60 Hz", 1e-2)))]
 GOAL = {"elastic": 0.01, "fiber": 0.01}  # part of a peer's time; elsewhere 1
-
-
-def time_of(nsframe, case, scheme, dt, end, options):
-    """Of runs without histories, how many, and the least wall time of the step loop or the least CPU time of the process less that
-    of runs of one step, whichever is less [s]. Other programs on the same cores lengthen the first, what isn't the step loop the second."""
-    walls, cpus = [], []
-    while len(walls) < options.runs or (sum(walls) < ENOUGH and len(walls) < MOST_RUNS and not options.quick):
-        wall, _, _, _, cpu = run_nsframe(nsframe, case, scheme, dt, end, False)
-        walls.append(wall)
-        cpus.append(cpu)
-        if min(wall, cpu) > LONG:
-            break
-    one_step = min(run_nsframe(nsframe, case, scheme, dt, dt, False)[4] for _ in walls)
-    busy = min(cpus) - one_step
-    return len(walls), min(min(walls), busy) if busy > SHORT else min(walls)
 
 
 def nsframe_rows(nsframe, case, reference, options):
@@ -58,13 +44,13 @@ def nsframe_rows(nsframe, case, reference, options):
             row["setting"], scheme = name + case.moreau_jean_text, {**scheme, **case.moreau_jean}
         rows.append(row)
         try:
-            _, summary, time, history, _ = run_nsframe(nsframe, case, scheme, dt, end, True)
+            summary, time, history = run_nsframe(nsframe, case, scheme, dt, end)
             row["error_m"] = error_of(reference, dt, time, history)
-            runs, cpu = time_of(nsframe, case, scheme, dt, end, options)
+            times = nsframe.loop_seconds(case.scene, settings_of(case, scheme, dt, end), options.runs, 0 if options.quick else ENOUGH)
         except BenchError as problem:
             row["failed"] = reason(problem)
             continue
-        row.update(cpu_s=cpu, runs=runs, impacts=len(summary["impacts"]))
+        row.update(cpu_s=min(times), runs=len(times), impacts=len(summary["impacts"]))
     return rows
 
 

@@ -1,6 +1,7 @@
 // What a time history reports, step by step and at its end; integrators produce it, output writes it.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -85,6 +86,9 @@ class Observer {
   virtual void step(const State& before, const State& after, const StepReport& report, const Energy& energy) {
     (void)before; (void)after; (void)report; (void)energy;
   }
+  // The next time whose nearest step is one of which step() reads State::history [s]; a scheme may leave that behind until then. By default
+  // it is read of every step.
+  virtual double next_history_time() const { return -std::numeric_limits<double>::infinity(); }
   virtual void impact(const Impact& impact) { (void)impact; }
   // Called also when the run stops early.
   virtual void finish() {}

@@ -10,7 +10,7 @@ struct State {
   VectorX displacement;       // free DOFs, relative to the base [m, rad]
   VectorX velocity;           // [m/s, rad/s]
   VectorX acceleration;       // of the last step without impacts, only a first guess for the next [m/s2, rad/s2]
-  VectorX internal_force;     // P(q) without damping, free DOFs, where the scheme needs it (`exact` leaves it) [N, N m]
+  VectorX internal_force;     // P(q) without damping, free DOFs, at the start of a run; later where the scheme needs it [N, N m]
   VectorX history;            // of all nonlinear elements; layout: Model::history_begin, one block a group
   VectorX damping_stiffness;  // entries of the tangent at the end of the last step; empty unless damping needs it [N/m]
   VectorX impulse;            // of the contact pairs over the last step [N s]

@@ -131,7 +131,7 @@ int run(const SceneArguments& arguments) {
   Summary summary = reduced.run(observers, control, stage_observers);
   if (!has_history(summary)) history.close();
   summary.title = loaded.scene.title;
-  summary.timing.setup = setup;
+  summary.timing.setup += setup - simulation.setup_seconds();  // the scene, too
   summary.poundings = merge_impacts(summary.impacts);
   summary.peaks = peaks.peaks();
   summary.drifts = drifts.drifts();

@@ -70,7 +70,7 @@ VectorX EventFlow::accelerations() const {
 }
 
 void EventFlow::collide(const System& system, double time, double remaining, StepResult& result) {
-  if (modes_.pairs() == 0) return;
+  if (contact_.closed.empty() && std::find(contact_.touching.begin(), contact_.touching.end(), true) == contact_.touching.end()) return;
   rate_ = modes_.gap * state_.y;
   collide_in_rounds(rate_, step_impulse_, result.accumulations, [&](bool last) { return collide_once(system, time, remaining, last, result); },
                     [&] { return 64 * machine_epsilon * largest_approach_; });

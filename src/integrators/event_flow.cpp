@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/decompositions.hpp"
 #include "base/errors.hpp"
@@ -38,6 +39,8 @@ EventFlow::EventFlow(const AnalysisOptions& options, const System& system, const
 Scheme::LeftOut EventFlow::left_out() const { return {modes_.left_out, modes_.kept_mass.size() > 0 ? modes_.kept_mass.minCoeff() : 1}; }
 
 void EventFlow::start(const System& system, const State& committed) {
+  double done = 0;
+  for (const double cut : cuts(system, committed.time, options_.dt)) propagator_.prepare(cut - std::exchange(done, cut));
   modes_.projection.multiply(committed.displacement, state_.x);
   modes_.projection.multiply(committed.velocity, state_.y);
   for (const DampingCoupling& coupling : modes_.couplings) {

@@ -25,12 +25,19 @@ const System& linear_only(const System& system, const Location& at) {
 Exact::Exact(const AnalysisOptions& options, const System& system)
     : flow_(options, linear_only(system, options.scheme_at), system.assembler.tangent()) {}
 
+void Exact::begin_anew(const System& system, const State& committed) {
+  flow_.start(system, committed);
+  goes_on_ = begins_ = true;
+}
+
 void Exact::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result.clear();
-  const bool fresh = !std::exchange(goes_on_, false);
-  if (fresh) flow_.start(system, committed);
+  if (!std::exchange(goes_on_, false)) {
+    flow_.start(system, committed);
+    begins_ = true;
+  }
   flow_.clear_impulse();
-  flow_.travel(system, committed.time, h, fresh, result);
+  flow_.travel(system, committed.time, h, std::exchange(begins_, false), result);
   trial.time = committed.time + h;
   flow_.write(trial.displacement, trial.velocity);
   trial.impulse = flow_.impulse();
@@ -41,11 +48,13 @@ void Exact::step(System& system, const State& committed, State& trial, double h,
 void Exact::save(Snapshot& snapshot) const {
   flow_.save(snapshot);
   snapshot.put("exact.goes_on", goes_on_ ? 1.0 : 0.0);
+  snapshot.put("exact.begins", begins_ ? 1.0 : 0.0);
 }
 
 void Exact::restore(System&, const Snapshot& snapshot) {
   flow_.restore(snapshot);
   goes_on_ = snapshot.number("exact.goes_on") != 0;
+  begins_ = snapshot.number("exact.begins") != 0;
 }
 
 std::vector<std::string> Exact::describe() const {

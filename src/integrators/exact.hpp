@@ -13,6 +13,7 @@ class Exact : public Scheme {
   Exact(const AnalysisOptions& options, const System& system);
   std::string name() const override { return "exact"; }
   bool condenses_massless() const override { return true; }
+  void begin_anew(const System& system, const State& committed) override;
   void step(System& system, const State& committed, State& trial, double h, StepResult& result) override;
   ModeResponse mode_response(double w, double xi, double) const override { return {w > 0 ? xi : 0, flow_.kept_frequency(w)}; }
   LeftOut left_out() const override { return flow_.left_out(); }
@@ -28,6 +29,7 @@ class Exact : public Scheme {
 
  private:
   EventFlow flow_;
+  bool begins_ = true;  // with the next step
 };
 
 }  // namespace nsframe

@@ -44,6 +44,7 @@ class Propagator {
   // The same by coefficients that are kept for further steps of that length. `s` is best of few values; these are found
   // to more digits than double has, so that no energy is lost or gained in millions of steps.
   void step(const ModalState& from, double s, ModalState& after);
+  void prepare(double s) { find(s); }  // for step()
   // The same where all modes are oscillators, with energy() of all loads and size() of the start.
   FlightSums step_and_sum(const ModalState& from, double s, ModalState& after);
 

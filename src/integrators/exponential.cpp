@@ -127,14 +127,18 @@ void Exponential::start(System& system, const State& committed) {
   flow_.clear_force();
   flow_.start(system, committed);
   history_ = committed.history;
-  stiffness_.multiply(committed.displacement, now_.force);
-  now_.force = committed.internal_force - now_.force;
+  if (begins_) {
+    stiffness_.multiply(committed.displacement, start_force_);
+    start_force_ = committed.internal_force - start_force_;
+  }
+  now_.force = start_force_;
   project(now_);
   now_.massless.setZero(modes.dofs);
   if (modes.follows()) modes.massless_flexibility.multiply(now_.force, now_.massless);
   modal_rate_ = VectorX::Zero(now_.modal.size());
   massless_rate_ = VectorX::Zero(now_.massless.size());
   level_ = 0;
+  span_ = {0, 0, 1, span_.most};
   // the first peak, from rest position and velocity
   modes.shape.multiply(VectorX(flow_.modal().y.cwiseProduct(flexibility_.cwiseSqrt())), displacement_);
   peak_ = std::max(committed.displacement.cwiseAbs().maxCoeff(), displacement_.cwiseAbs().maxCoeff());
@@ -154,58 +158,111 @@ void Exponential::show(const ModalState& end, double s, bool in_contact, VectorX
   shown = (flow_.modes().square.array() * (s * s) > farthest_turn * farthest_turn).select(flexibility_.cwiseProduct(load_), shown);
 }
 
-bool Exponential::advance(System& system, double time, double s, bool starting, const VectorX& committed, VectorX& trial,
-                          StepResult& result) {
+double Exponential::foresee(System& system, double time, double s, bool starting, const VectorX& from, VectorX& to) {
   flow_.set_force(now_.modal, modal_rate_, time);
   expected_massless_ = now_.massless + s * massless_rate_;
   if (!starting && flow_.glide(system, time, s, expected_)) {
     show(expected_, s, false, shown_);
-    evaluate(system, shown_, expected_massless_, committed, trial);
+    evaluate(system, shown_, expected_massless_, from, to);
   } else {
     flow_.copy_to(before_);
     tried_.clear();
     flow_.travel(system, time, s, starting, tried_);
     show(flow_.modal(), s, true, shown_);
-    evaluate(system, shown_, expected_massless_, committed, trial);
+    evaluate(system, shown_, expected_massless_, from, to);
     flow_.go_back(before_);
   }
-  const double error = error_ratio(next_.modal - now_.modal - s * modal_rate_, s);
+  return error_ratio(next_.modal - now_.modal - s * modal_rate_, s);
+}
+
+void Exponential::take_rates(double s) {
+  modal_rate_ = (next_.modal - now_.modal) / s;
+  massless_rate_ = (next_.massless - now_.massless) / s;
+  flow_.set_force_slope(modal_rate_);
+}
+
+void Exponential::add_rest_work(double part, StepResult& result) const {
+  const double work = -part * flow_.modes().rest.dot(next_.force - now_.force);
+  result.strain += work;
+  result.input += work;
+}
+
+bool Exponential::advance(System& system, double time, double s, bool starting, const VectorX& committed, VectorX& trial,
+                          StepResult& result) {
+  const double error = foresee(system, time, s, starting, committed, trial);
   if (error > 1 && level_ < exponential_levels) {
     ++level_;
     return false;
   }
-  modal_rate_ = (next_.modal - now_.modal) / s;
-  massless_rate_ = (next_.massless - now_.massless) / s;
-  flow_.set_force_slope(modal_rate_);
+  take_rates(s);
   flow_.travel(system, time, s, starting, result);
-  const double massless_work = -flow_.modes().rest.dot(next_.force - now_.force);
-  result.strain += massless_work;
-  result.input += massless_work;
+  add_rest_work(1, result);
   std::swap(now_, next_);
-  if (error < room_to_double && level_ > 0) --level_;
+  if (level_ == 0) {
+    span_.wanted = steps_after(1, error);
+  } else if (error < room_to_double) {
+    --level_;
+  }
   return true;
+}
+
+void Exponential::begin_span(System& system, const State& committed, double h, StepResult& result) {
+  if (level_ > 0) return;
+  while (std::min(span_.wanted, span_.most) > 1) {
+    const int steps = std::min(span_.wanted, span_.most);
+    const double length = steps * h, error = foresee(system, committed.time, length, false, committed.history, history_);
+    const int next = steps_after(steps, error);
+    if (error > 1) {
+      span_.wanted = next;
+      ++result.rejected_parts;
+      continue;
+    }
+    take_rates(length);
+    span_.steps = steps;
+    if (steps == span_.wanted || next < steps) span_.wanted = next;
+    return;
+  }
+}
+
+void Exponential::go_on_in_span(System& system, const State& committed, State& trial, double h, StepResult& result) {
+  result.histories_behind = span_.done > 0;
+  flow_.travel(system, committed.time, h, false, result);
+  add_rest_work(1.0 / span_.steps, result);
+  result.histories_behind = ++span_.done < span_.steps;
+  if (result.histories_behind) return;
+  span_.steps = span_.done = 0;
+  std::swap(now_, next_);
+  std::swap(trial.history, history_);
 }
 
 void Exponential::step(System& system, const State& committed, State& trial, double h, StepResult& result) {
   result.clear();
   const bool fresh = !std::exchange(goes_on_, false);  // a step that fails leaves the flow somewhere: the next one then begins afresh
-  if (fresh) start(system, committed);
+  if (fresh) {
+    start(system, committed);
+  } else {
+    start_force_ = now_.force;
+  }
   flow_.clear_impulse();
   evaluations_ = 0;
-  make_parts(system, committed, trial, h, fresh, result);
+  if (span_.steps == 0 && !fresh && h == options_.dt) begin_span(system, committed, h, result);
+  if (span_.steps > 0) {
+    go_on_in_span(system, committed, trial, h, result);
+  } else {
+    make_parts(system, committed, trial, h, fresh, result);
+  }
   result.evaluations = evaluations_;
   trial.time = committed.time + h;
   flow_.write(trial.displacement, trial.velocity);
   trial.displacement -= now_.massless;
   trial.velocity -= massless_rate_;
-  trial.internal_force.resize(now_.force.size());
-  stiffness_.multiply(trial.displacement, trial.internal_force);
-  trial.internal_force += now_.force;
+  if (span_.done > 0) trial.displacement -= span_.done * h * massless_rate_;
   trial.acceleration = (trial.velocity - committed.velocity) / h;
   trial.impulse = flow_.impulse();
   result.kinetic = flow_.kinetic_energy();
   peak_ = std::max(peak_, trial.displacement.cwiseAbs().maxCoeff());
   goes_on_ = true;
+  begins_ = false;
 }
 
 void Exponential::make_parts(System& system, const State& committed, State& trial, double h, bool fresh, StepResult& result) {
@@ -238,6 +295,8 @@ void Exponential::save(Snapshot& snapshot) const {
   snapshot.put("exponential.memory", memory_);
   snapshot.put("exponential.massless_stiffness", VectorX(massless_stiffness_.reshaped()));
   snapshot.put("exponential.level", static_cast<double>(level_));
+  snapshot.put("exponential.span", static_cast<double>(span_.wanted));
+  snapshot.put("exponential.begins", begins_ ? 1.0 : 0.0);
   snapshot.put("exponential.goes_on", goes_on_ ? 1.0 : 0.0);
 }
 
@@ -250,6 +309,7 @@ void Exponential::restore(System& system, const Snapshot& snapshot) {
   snapshot.read("exponential.massless", now_.massless);
   snapshot.read("exponential.modal_rate", modal_rate_);
   snapshot.read("exponential.massless_rate", massless_rate_);
+  begins_ = snapshot.number("exponential.begins") != 0;
   goes_on_ = snapshot.number("exponential.goes_on") != 0;
   peak_ = snapshot.number("exponential.peak");
   memory_ = snapshot.number("exponential.memory");
@@ -259,6 +319,7 @@ void Exponential::restore(System& system, const Snapshot& snapshot) {
     massless_tangent_.compute(massless_stiffness_);
   }
   level_ = static_cast<int>(snapshot.number("exponential.level"));
+  span_.wanted = static_cast<int>(snapshot.number("exponential.span"));
   project(now_);
   history_ = system.assembler.virgin_history();
   follow_ = VectorX::Zero(modes.dofs);

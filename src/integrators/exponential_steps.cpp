@@ -10,6 +10,7 @@ namespace nsframe {
 namespace {
 
 constexpr double guard = 0.02;        // part of the peak, without `accuracy`
+constexpr double aim = 0.9;           // at which part of the allowed error, of parts over several steps
 constexpr double least_share = 1e-12;  // of nonlinear elements in a mode: rounding
 
 }  // namespace
@@ -48,6 +49,12 @@ double Exponential::error_ratio(const VectorX& unexpected, double s) {
   const double held = (force * lag.square()).sum();                                    // by a wrong force that stays [m]
   const double hidden = (size_seen * (s * s / 8 * square).min(1.0) * swing).sum();
   return std::max(moved / s, held + hidden) / (options_.accuracy * size);
+}
+
+int Exponential::steps_after(int steps, double error) const {
+  if (options_.accuracy == 0) return 1;
+  const double factor = std::min(2.0, std::sqrt(aim / std::max(error, 1e-3)));  // errors are of second order
+  return std::clamp(static_cast<int>(factor * steps), 1, error > 1 ? steps - 1 : exponential_steps);
 }
 
 }  // namespace nsframe

@@ -23,6 +23,7 @@ struct StepFigures {
   int rejected_parts = 0;            // of the step, made anew with half the length
   int solves = 0;                    // of the linearised step
   bool guess_stood = false;          // no iteration was needed
+  bool histories_behind = false;     // those of the trial state are of some earlier time
   int active_pairs = 0;
   double residual = 0;               // relative
   double complementarity_error = 0;
@@ -56,8 +57,17 @@ class Scheme {
   virtual ~Scheme() = default;
   virtual std::string name() const = 0;
 
-  // The next step begins from another state than the result of the last one: what a scheme keeps of that is void.
-  void begin_anew() { goes_on_ = false; }
+  // The next step begins from `committed`, another state than the result of the last one: what a scheme keeps of that is void. What it
+  // can prepare for that step it may do now.
+  virtual void begin_anew(const System& system, const State& committed) {
+    (void)system, (void)committed;
+    goes_on_ = false;
+  }
+
+  // A scheme may leave the histories of elements behind for some of the next `steps` steps, but not in the last of them; those that do are
+  // told again before every step.
+  virtual bool leaves_histories_behind() const { return false; }
+  virtual void histories_wanted_after(int steps) { (void)steps; }
 
   // Advances from `committed` by `h` [s] into `trial` (arrays of the right size, contents arbitrary). `committed` is
   // not changed, so a step that throws ConvergenceError has nothing to undo.

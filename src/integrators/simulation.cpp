@@ -264,7 +264,7 @@ Summary Simulation::run(const std::vector<Observer*>& observers, const RunContro
   summary.completed = result.completed;
   summary.interrupted = result.interrupted;
   summary.stop_reason = result.stop_reason;
-  summary.timing = {setup_seconds_, result.step_seconds, result.observer_seconds};
+  summary.timing = {setup_seconds_ + result.begin_seconds, result.step_seconds, result.observer_seconds};
   return summary;
 }
 

@@ -26,7 +26,8 @@ class Simulation {
   State& state() { return state_; }
   double duration() const;
   const Scheme& scheme() const { return *scheme_; }
-  // Why this one.
+  double setup_seconds() const { return setup_seconds_; }
+  // Why this scheme.
   const std::string& scheme_reason() const { return scheme_reason_; }
   // With the patterns of modes filled in.
   const std::vector<StaticStage>& stages() const { return stages_; }

@@ -8,6 +8,7 @@
 #include "base/errors.hpp"
 #include "base/large_pages.hpp"
 #include "base/timer.hpp"
+#include "integrators/history_reads.hpp"
 
 namespace nsframe {
 
@@ -67,7 +68,8 @@ class TimeHistory {
  public:
   TimeHistory(System& system, Scheme& scheme, const AnalysisOptions& options, const std::vector<Observer*>& observers,
               const RunControl& control, const LargerModel* larger)
-      : system_(system), scheme_(scheme), options_(options), observers_(observers), control_(control), shown_(system.model, larger) {}
+      : system_(system), scheme_(scheme), options_(options), observers_(observers), control_(control), shown_(system.model, larger),
+        reads_(observers, options.dt) {}
 
   TimeHistoryResult run(double duration, State& committed);
 
@@ -113,7 +115,10 @@ class TimeHistory {
   VectorX support_force_;      // of moved supports along each motion, at the end of the last step [N]
   double support_kinetic_ = 0;  // what they add to the kinetic energy [J]
   double start_ = 0;           // of the time history [s]
+  HistoryReads reads_;
+  int steps_asked_ = 0;
   SharedTimer clock_;           // apart: observers and snapshots
+  double loop_start_ = 0;       // on the clock, observers not counted [s]
   double last_save_ = 0, last_look_ = 0;  // on the clock [s]
   int unlooked_steps_ = 0, steps_a_look_ = 1;
   double earlier_seconds_ = 0, earlier_observer_seconds_ = 0;  // of the run that this one continues
@@ -224,7 +229,6 @@ void TimeHistory::begin(State& committed, double duration) {
     return;
   }
   start_ = committed.time;
-  scheme_.begin_anew();
   if (system_.model.moves_supports()) {
     State trial = committed;
     system_.place_supports(committed.time);
@@ -239,6 +243,7 @@ void TimeHistory::begin(State& committed, double duration) {
       each_observer([&](Observer& observer) { observer.start(model, state); });
     });
   });
+  scheme_.begin_anew(system_, committed);
 }
 
 bool TimeHistory::step(int number, State& committed, State& trial) {
@@ -248,6 +253,7 @@ bool TimeHistory::step(int number, State& committed, State& trial) {
   try {
     // times from the step number, so that rounding does not add up
     const double end = start_ + number * options_.dt;
+    if (scheme_.leaves_histories_behind()) scheme_.histories_wanted_after(reads_.steps(committed.time, steps_asked_ - result_.steps));
     advance(committed, trial, options_.dt, 0);
     trial.time = end;
   } catch (const ConvergenceError& problem) {
@@ -257,7 +263,7 @@ bool TimeHistory::step(int number, State& committed, State& trial) {
   }
   ++result_.steps;
   watch_energy(trial, step_.kinetic);
-  if (result_.steps % quiet_sampling == 0 && system_.assembler.fibers() > 0) {
+  if (result_.steps % quiet_sampling == 0 && !step_.histories_behind && system_.assembler.fibers() > 0) {
     result_.quiet_fibers += static_cast<double>(system_.assembler.quiet_fibers(trial.history));
     ++result_.quiet_samples;
   }
@@ -274,7 +280,7 @@ bool TimeHistory::step(int number, State& committed, State& trial) {
 }
 
 bool TimeHistory::stop_now() {
-  if (!control_.stop_requested || !control_.stop_requested()) return false;
+  if (step_.histories_behind || !control_.stop_requested || !control_.stop_requested()) return false;
   result_.interrupted = true;
   result_.stop_reason = "interrupted";
   return true;
@@ -300,7 +306,7 @@ void TimeHistory::save(const State& committed) {
     nsframe::save(committed, snapshot);
     scheme_.save(snapshot);
     snapshot.put("time_history.start", start_);
-    snapshot.put("time_history.wall_seconds", earlier_seconds_ + clock_.seconds());
+    snapshot.put("time_history.wall_seconds", earlier_seconds_ + clock_.seconds() - loop_start_);
     visit_sums(result_, [&](const char* name, auto value) {
       snapshot.put(std::string("time_history.") + name, static_cast<double>(value));
     });
@@ -348,20 +354,21 @@ void TimeHistory::restore(State& committed) {
 }
 
 TimeHistoryResult TimeHistory::run(double duration, State& committed) {
-  const int steps = static_cast<int>(std::llround(duration / options_.dt));
+  steps_asked_ = static_cast<int>(std::llround(duration / options_.dt));
   begin(committed, duration);
   VectorX history = on_large_pages(committed.history);
   committed.history.resize(0);  // never three of them at a time
   State trial = committed;
   committed.history = on_large_pages(history);
   trial.history = std::move(history);
+  loop_start_ = clock_.seconds() - clock_.apart_seconds();
   const bool saves = control_.keep_snapshot && control_.snapshot_interval > 0;
-  while (result_.steps < steps && !stop_now() && step(result_.steps + 1, committed, trial)) {
+  while (result_.steps < steps_asked_ && !stop_now() && step(result_.steps + 1, committed, trial)) {
     std::swap(committed, trial);
-    if (saves && save_is_due()) save(committed);
+    if (saves && !step_.histories_behind && save_is_due()) save(committed);
   }
-  result_.completed = result_.steps == steps;
-  save(committed);
+  result_.completed = result_.steps == steps_asked_;
+  if (!step_.histories_behind) save(committed);
   for (const Impact& impact : scheme_.open_contacts(system_, committed)) {
     result_.impacts.push_back(impact);
     observe([&] { each_observer([&](Observer& observer) { observer.impact(impact); }); });
@@ -373,7 +380,8 @@ TimeHistoryResult TimeHistory::run(double duration, State& committed) {
   }
   observe([&] { each_observer([](Observer& observer) { observer.finish(); }); });
   result_.observer_seconds = observer_seconds();
-  result_.step_seconds = earlier_seconds_ + clock_.seconds() - result_.observer_seconds;
+  result_.begin_seconds = loop_start_;
+  result_.step_seconds = earlier_seconds_ + clock_.seconds() - result_.observer_seconds - loop_start_;
   return std::move(result_);
 }
 

@@ -34,7 +34,7 @@ struct TimeHistoryResult : RunSums {
   bool completed = false;
   bool interrupted = false;          // stop_requested() said so
   std::string stop_reason;
-  double step_seconds = 0, observer_seconds = 0;
+  double begin_seconds = 0, step_seconds = 0, observer_seconds = 0;  // before the first step, of the steps, of the observers
 };
 
 // Stopping early and going on later; with the defaults, a run does neither.

@@ -64,6 +64,10 @@ class HistoryFile::Writer : public StageObserver {
   void resume(const Model& model, const State& state, const Snapshot& snapshot);
 
   double seconds() const { return seconds_; }
+  double next_history_time() const {
+    const bool reads = asked("elements") || asked("sections") || asked("fibers");
+    return reads ? clock_.next_time() : std::numeric_limits<double>::infinity();
+  }
 
  private:
   bool asked(const char* name) const {
@@ -287,6 +291,8 @@ void HistoryFile::start(const Model& model, const State& state) { writer_->start
 void HistoryFile::step(const State& before, const State& after, const StepReport&, const Energy& energy) {
   writer_->step(before, after, energy);
 }
+
+double HistoryFile::next_history_time() const { return writer_->next_history_time(); }
 
 void HistoryFile::impact(const Impact& impact) { writer_->impact(impact); }
 

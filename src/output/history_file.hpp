@@ -41,6 +41,7 @@ class HistoryFile : public Observer {
   // Creates the file; an earlier one at `path` is replaced here, not before.
   void start(const Model& model, const State& state) override;
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
+  double next_history_time() const override;
   void impact(const Impact& impact) override;
   void finish() override;
   void save(Snapshot& snapshot) override;

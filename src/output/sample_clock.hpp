@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace nsframe {
 
@@ -13,6 +14,8 @@ class SampleClock {
   void start(double time) { next_ = std::floor(time * rate_ + 1e-6) + 1; }
 
   double next() const { return next_; }
+  // [s]; before everything where every step is kept.
+  double next_time() const { return rate_ > 0 ? next_ / rate_ : -std::numeric_limits<double>::infinity(); }
   void resume(double next) { next_ = next; }
 
   // True when the step that ends at `after` is the nearest to the next sample. Steps have one length, so the next

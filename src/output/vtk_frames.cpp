@@ -157,6 +157,7 @@ class VtkFrames::Writer {
   }
 
   double seconds() const { return seconds_; }
+  double next_time() const { return clock_.next_time(); }
   int frames() const { return static_cast<int>(times_.size()); }
 
  private:
@@ -294,6 +295,8 @@ void VtkFrames::start(const Model& model, const State& state) {
 void VtkFrames::step(const State& before, const State& after, const StepReport&, const Energy&) {
   if (writer_) writer_->step(before, after);
 }
+
+double VtkFrames::next_history_time() const { return writer_ ? writer_->next_time() : std::numeric_limits<double>::infinity(); }
 
 void VtkFrames::finish() {
   if (writer_) writer_->finish();

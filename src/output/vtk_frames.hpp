@@ -23,6 +23,7 @@ class VtkFrames : public Observer {
 
   void start(const Model& model, const State& state) override;
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
+  double next_history_time() const override;
   void finish() override;
   void save(Snapshot& snapshot) override;
   // Drops the frames after the snapshot and goes on.

@@ -174,7 +174,8 @@ void visit(Archive& ar, AnalysisOptions& a) {
      a.scheme);
   ar(Field{"dt", "time step", dimension::time, range::positive}, a.dt);
   ar(Field{"accuracy",
-           "of scheme `exponential`: it takes parts of `dt` so that displacements are off by about this part of their peak; 0: whole steps",
+           "of scheme `exponential`: it evaluates the elements as often as it takes for displacements to be off by about this part of their "
+           "peak, several times in a step or once for many (`dt` then only says when results are kept); 0: once a step",
            {}, {0, 0.1}},
      a.accuracy);
   ar(Field{"highest_frequency",

@@ -13,6 +13,7 @@ class HistoryRecorder : public Observer {
   HistoryRecorder(std::vector<int> nodes, double interval, double dt);
   void start(const Model& model, const State& state) override;
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
+  double next_history_time() const override { return std::numeric_limits<double>::infinity(); }
   const std::vector<VectorX>& rows() const { return rows_; }  // the first is the start
 
  private:

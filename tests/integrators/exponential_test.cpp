@@ -2,9 +2,11 @@
 // across impacts, its guards and its refusals.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "integrators/exponential.hpp"
+#include "output/sample_clock.hpp"
 #include "tests/integrators/oscillators.hpp"
 #include "tests/integrators/runs.hpp"
 
@@ -93,6 +95,59 @@ TEST_CASE("exponential: accuracy is met, with work where something yields") {
     CHECK(difference(ours, fine) < accuracy * peak);
     CHECK(ours.summary.evaluations > last);
     last = ours.summary.evaluations;
+  }
+}
+
+namespace {
+
+// Keeps states, of which histories are to be read at a rate [Hz], and notes which.
+class ReadsSometimes : public Recorder {
+ public:
+  explicit ReadsSometimes(double rate) : clock_(rate) {}
+  std::vector<std::size_t> read;
+  void start(const Model& model, const State& state) override {
+    clock_.start(state.time);
+    Recorder::start(model, state);
+  }
+  void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override {
+    if (clock_.due(before.time, after.time)) read.push_back(states.size());
+    Recorder::step(before, after, report, energy);
+  }
+  double next_history_time() const override { return clock_.next_time(); }
+
+ private:
+  SampleClock clock_;
+};
+
+// Largest difference of the histories of two states, over the largest entry.
+double behind(const State& state, const State& reference) {
+  return (state.history - reference.history).cwiseAbs().maxCoeff() / reference.history.cwiseAbs().maxCoeff();
+}
+
+}  // namespace
+
+TEST_CASE("exponential: with an accuracy, one evaluation serves many short steps, and histories are those of the steps at which they are read") {
+  const ModelDescription d = yielding_masses(Steel02{8e3, 2e6, 0.05});
+  const Run fine = completed(d, by_scheme("exponential", 5e-6, 0.4));
+  double peak = 0;
+  for (const State& state : fine.states) peak = std::max(peak, state.displacement.cwiseAbs().maxCoeff());
+  const Model model = build(d);
+  for (const double rate : {1.0, 300.0, 3100.0, 9999.0}) {  // steps are at 10 kHz
+    CAPTURE(rate);
+    Simulation simulation(model, by_scheme("exponential", 1e-4, 0.4, 1e-3));
+    ReadsSometimes reader(rate);
+    Run ours;
+    ours.summary = simulation.run({&reader});
+    ours.states = reader.states;
+    CHECK(difference(ours, fine) < 1e-3 * peak);
+    CHECK(ours.summary.worst_balance_error < 1e-4);
+    CHECK(ours.summary.evaluations < (rate < 1000 ? 2000 : 5000));
+    const std::size_t stride = (fine.states.size() - 1) / (ours.states.size() - 1);
+    CHECK(behind(ours.states.back(), fine.states.back()) < 1e-3);
+    CHECK(reader.read.size() >= static_cast<std::size_t>(0.39 * rate));
+    // but at a reversal, which one of the two may have met and the other not yet
+    const auto wrong = std::count_if(reader.read.begin(), reader.read.end(), [&](std::size_t i) { return behind(ours.states[i], fine.states[i * stride]) > 1e-3; });
+    CHECK(static_cast<double>(wrong) <= 0.01 * static_cast<double>(reader.read.size()));
   }
 }
 

@@ -33,6 +33,7 @@ class Killer : public Observer {
   void step(const State&, const State&, const StepReport& report, const Energy&) override {
     if (report.step == killed_at) raise(SIGKILL);
   }
+  double next_history_time() const override { return std::numeric_limits<double>::infinity(); }
 };
 
 struct Outcome {
@@ -62,7 +63,7 @@ RunControl checkpoints(const std::filesystem::path& folder) {
   control.snapshot_interval = 1e-9;
   control.keep_snapshot = [=](const Snapshot& snapshot) {
     const double step = snapshot.number("time_history.steps");
-    if (step == last_checkpoint) write_checkpoint(folder / "checkpoint.h5", "", snapshot);
+    if (step > last_checkpoint - 5 && step <= last_checkpoint) write_checkpoint(folder / "checkpoint.h5", "", snapshot);
   };
   return control;
 }
@@ -81,10 +82,11 @@ Snapshot small_snapshot() {
 
 TEST_CASE("a run killed between two checkpoints goes on from the last one with the same bits") {
   for (const auto& [name, scheme] : {std::pair<std::string, std::string>{"two_story_elastic", "moreau-jean"},
-                                     {"two_story_elastic", "exact"}, {"two_story", "moreau-jean"}}) {
+                                     {"two_story_elastic", "exact"}, {"two_story", "moreau-jean"}, {"two_story", "exponential"}}) {
     CAPTURE(name);
     CAPTURE(scheme);
-    const Scene scene = example_scene(name, {"analysis.scheme=" + scheme, "analysis.duration=3 s", "output.history=[\"nodes\", \"contacts\", \"sections\", \"fibers\", \"energy\"]",
+    const Scene scene = example_scene(name, {"analysis.scheme=" + scheme, "analysis.duration=3 s",
+                                             scheme == "exponential" ? "analysis.accuracy=1e-3" : "analysis.dt=1 ms", "output.history=[\"nodes\", \"contacts\", \"sections\", \"fibers\", \"energy\"]",
                                              "output.history_rate=300"});
     const TemporaryFolder whole, killed;
     const Outcome expected = run(scene, whole.path(), {});
