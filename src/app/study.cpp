@@ -97,7 +97,8 @@ void StudyRun::find_interval() {
 Run StudyRun::make_reference(const LoadedScene& loaded, StudyReference& reference) const {
   const std::vector<std::string> known = scheme_names();
   AnalysisOptions options = loaded.scene.analysis;
-  options.highest_frequency = 0;  // a reference leaves nothing out
+  options.highest_frequency = 0;  // a reference leaves nothing out,
+  options.accuracy = 0;           // and its steps are those that are halved
   std::string reasons;
   for (const char* scheme : reference_schemes) {
     if (std::find(known.begin(), known.end(), scheme) == known.end()) continue;

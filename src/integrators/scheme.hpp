@@ -20,7 +20,7 @@ struct StepFigures {
   int newton_iterations = 0;
   int evaluations = 0;               // of all elements, where the scheme counts them
   int stiffened_steps = 0;           // made by the implicit form of alpha-OS (alpha_os.cpp)
-  int rejected_parts = 0;            // of the step, made anew with half the length
+  int rejected_parts = 0;            // of the step, or over several, made anew and shorter
   int solves = 0;                    // of the linearised step
   bool guess_stood = false;          // no iteration was needed
   bool histories_behind = false;     // those of the trial state are of some earlier time

@@ -294,7 +294,7 @@ void put_solution(Buffer& out, const Summary& summary) {
        summary.steps > 0 ? double(summary.newton_iterations) / summary.steps : 0.0, summary.halved_steps,
        summary.factorizations);
   if (summary.evaluations > 0) {
-    line(out, "  evaluations of the elements {} ({:.2f} a step), parts of steps made anew with half the length {}", summary.evaluations,
+    line(out, "  evaluations of the elements {} ({:.2f} a step), parts made anew, shorter, {}", summary.evaluations,
          summary.steps > 0 ? double(summary.evaluations) / summary.steps : 0.0, summary.rejected_parts);
   }
   put_savings(out, summary);

@@ -17,8 +17,8 @@ KNOWN = {("1e-2", "0.5"): (7.4e-3, None), ("5e-3", "0.5"): (3.0e-3, None), ("1e-
          ("1e-2", "1"): (1.6e-2, 0), ("5e-3", "1"): (1.8e-2, 1), ("1e-3", "1"): (1.28e-2, 2), ("1e-4", "1"): (1.27e-3, 3)}
 
 
-def study(*options):
-    return subprocess.run([PROGRAM, "study", SCENE, *options], capture_output=True, text=True)
+def study(*options, scene=SCENE):
+    return subprocess.run([PROGRAM, "study", scene, *options], capture_output=True, text=True)
 
 
 def require(condition, what):
@@ -52,6 +52,18 @@ with tempfile.TemporaryDirectory() as folder:  # e changes the physics: two refe
     with open(os.path.join(folder, "study.json")) as file:
         result = json.load(file)
     require([r["physics"] for r in result["references"]] == [["contact.restitution=0.6"], ["contact.restitution=0.3"]], "references")
+
+with tempfile.TemporaryDirectory() as folder:  # a reference has steps of its own, not the scene's accuracy
+    done = study("--vary", "analysis.accuracy=1e-2,1e-4,dt=1e-3", "--set", "analysis.duration=3", "-o", folder,
+                 scene=os.path.join(SOURCE, "examples", "accuracy", "scene.toml"))
+    require(done.returncode == 0, done.stderr)
+    with open(os.path.join(folder, "study.json")) as file:
+        result = json.load(file)
+    peak = result["references"][0]["peak"]
+    require(result["references"][0]["own_error"] < 1e-4 * peak, "reference %s" % result["references"][0])
+    for run in result["runs"]:
+        require(run["error"] < float(run["settings"]["analysis.accuracy"]) * peak, "accuracy %s" % run)
+    require(result["runs"][1]["error"] < 0.1 * result["runs"][0]["error"], "a smaller accuracy is more exact")
 
 for vary, text in (("dy=1e-3", "did you mean 'dt'"), ("analysis.tehta=1", "did you mean 'theta'"), ("1e-3", "key=value"),
                    ("scheme=exat", "did you mean 'exact'"), ("dt=1e-3,dt=1e-4", "given twice"), ("dt=1e-3,", "empty value"),
