@@ -44,6 +44,7 @@ void Springs::add(const ElementNodes& nodes, std::string id, SpringProperties pr
   element.deformation.row(1).segment<3>(9) += arm_j[0] * axes.row(2);
   element.deformation.row(2).segment<3>(3) += arm_i[1] * axes.row(1);
   element.deformation.row(2).segment<3>(9) -= arm_j[1] * axes.row(1);
+  if (nodes[1] < 0) element.deformation *= -1;  // of the node against the ground
   if (element.properties.p_delta) element.shift = p_delta_forces(element.properties);
   elements_.push_back(std::move(element));
 }

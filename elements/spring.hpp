@@ -47,7 +47,7 @@ class Springs : public ElementGroup {
  private:
   struct Element {
     SpringProperties properties;
-    Eigen::Matrix<double, 6, 12> deformation;  // local relative displacement of node 2 against node 1
+    Eigen::Matrix<double, 6, 12> deformation;  // local relative displacement of node 2 against node 1, or of the one node against the ground
     Matrix12 shift;                            // P-Delta forces of a unit axial force, by the displacement [1/m]
   };
   Kind kind_;

@@ -83,7 +83,7 @@ struct LoadDescription {
   double position = 0.5;              // of `force` along the beam, in [0, 1]
 };
 
-// Springs and dashpots between two nodes at (nominally) one place, or between a node and the ground (node_j empty), or, as
+// Springs and dashpots between two nodes at (nominally) one place, or between the ground and a node (node_j empty), or, as
 // a link, between two nodes apart, in six directions along local axes. A direction with a law uses it (force against
 // displacement) instead of `stiffness`.
 struct SpringDescription {

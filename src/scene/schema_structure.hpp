@@ -222,7 +222,7 @@ constexpr RowKeys row_keys(const DashpotTable*) { return node_dof_names; }
 template <class Archive>
 void visit(Archive& ar, SpringTable& s) {
   ar(required("id", "unique among the structure's elements"), s.id);
-  ar(required("nodes", "one (to the ground) or two, at one place"), s.nodes);
+  ar(required("nodes", "one, or two at one place; laws see how it moves against the ground, or the second against the first"), s.nodes);
   ar(Field{"stiffness", "by direction"}, s.stiffness);
   ar(Field{"damping", "dashpots by direction"}, s.damping);
   ar(Field{"law", "material laws by direction, in place of stiffness"}, s.law);

@@ -103,6 +103,26 @@ TEST_CASE("a spring to the ground acts along its own axes") {
   CHECK((u.tail<3>() - 5e2 / 7e5 * z).norm() < 1e-12);
 }
 
+TEST_CASE("a law sees a node that goes down on the ground in compression, as on a node that is held") {
+  const UniaxialLaw laws[] = {ENT{1e6}, Concrete02{-30e3, -0.02, -6e3, -0.1, 0.1, 3e3, 1e6}};
+  for (const UniaxialLaw& law : laws) {
+    ModelDescription d = two_nodes();
+    StructureDescription& s = d.structures[0];
+    s.nodes[1].position = start;
+    d.materials = {{"law", {}, law}};
+    SpringDescription spring = ground_spring("k", "2", stiffness());
+    spring.law[2] = Reference{"law", {}};
+    s.springs = {spring};
+    const Vector6 force = (Vector6() << 1e3, 2e3, -5e3, 0, 0, 0).finished(), on_ground = displacement(d, "a.2", force);
+    s.springs[0].node_i.name = "1";
+    s.springs[0].node_j = Reference{"2", {}};
+    const Vector6 on_node = displacement(d, "a.2", force);
+    CHECK((on_ground - on_node).norm() < 1e-14);
+    CHECK(on_ground[2] < -1e-3);
+    if (std::holds_alternative<ENT>(law)) CHECK(on_ground[2] == doctest::Approx(-5e-3).epsilon(1e-12));
+  }
+}
+
 TEST_CASE("P-Delta moments of a link are those of OpenSees' twoNodeLink for all ratios") {
   for (const auto& row : read_reference("pdelta_link")) {
     ModelDescription d = two_nodes();
