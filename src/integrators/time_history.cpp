@@ -115,6 +115,7 @@ class TimeHistory {
   VectorX support_force_;      // of moved supports along each motion, at the end of the last step [N]
   double support_kinetic_ = 0;  // what they add to the kinetic energy [J]
   double start_ = 0;           // of the time history [s]
+  double rest_rounding_ = 0;   // of the work that static loads did before, which hides smaller energies [J]
   HistoryReads reads_;
   int steps_asked_ = 0;
   SharedTimer clock_;           // apart: observers and snapshots
@@ -209,7 +210,7 @@ void TimeHistory::watch_energy(const State& state, std::optional<double> kinetic
     support_kinetic_ = carried;
   }
   largest = std::max({largest, energy.kinetic, std::abs(energy.strain), std::abs(energy.input), energy.initial});
-  if (largest > 0) {
+  if (largest > rest_rounding_) {
     result_.worst_balance_error = std::max(result_.worst_balance_error, std::abs(energy.balance_error()) / largest);
   }
 }
@@ -236,6 +237,7 @@ void TimeHistory::begin(State& committed, double duration) {
     system_.assembler.internal_force(committed.displacement, committed.history, trial.history, trial.internal_force);
     support_force_ = system_.support_forces(committed.displacement, committed.time);
   }
+  rest_rounding_ = 64 * machine_epsilon * system_.static_load.cwiseAbs().dot(committed.displacement.cwiseAbs());
   result_.energy.initial = system_.kinetic_energy(committed.velocity);
   watch_energy(committed, {});
   observe([&] {
@@ -306,6 +308,7 @@ void TimeHistory::save(const State& committed) {
     nsframe::save(committed, snapshot);
     scheme_.save(snapshot);
     snapshot.put("time_history.start", start_);
+    snapshot.put("time_history.rest_rounding", rest_rounding_);
     snapshot.put("time_history.wall_seconds", earlier_seconds_ + clock_.seconds() - loop_start_);
     visit_sums(result_, [&](const char* name, auto value) {
       snapshot.put(std::string("time_history.") + name, static_cast<double>(value));
@@ -332,6 +335,7 @@ void TimeHistory::restore(State& committed) {
   nsframe::restore(committed, snapshot);
   scheme_.restore(system_, snapshot);
   start_ = snapshot.number("time_history.start");
+  rest_rounding_ = snapshot.number("time_history.rest_rounding");
   visit_sums(result_, [&](const char* name, auto& value) {
     value = static_cast<std::remove_reference_t<decltype(value)>>(snapshot.number(std::string("time_history.") + name));
   });
