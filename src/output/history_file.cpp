@@ -141,6 +141,7 @@ void HistoryFile::Writer::start(const Model& model, const StaticStage& stage, co
   if (asked("nodes")) stage_parts_.push_back(node_history(model, options_.nodes, true));
   if (asked("elements")) stage_parts_.push_back(member_history(model));
   if (asked("sections")) stage_parts_.push_back(section_history(model, state));
+  if (asked("fibers")) stage_parts_.push_back(fiber_history(model, options_.fibers));
   for (auto& part : stage_parts_) part->create(*file_, block);
   file_->set_folder("");
 }

@@ -25,7 +25,7 @@ class FloorSpectra;
 //   /poundings/time, duration, pair, approach_velocity, impulse, effective_restitution, impacts
 //   /floor_spectra/node (m), period (p); displacement, pseudo_velocity, pseudo_acceleration (m, 3, p), along x, y, z
 //   /static/<stage>/load_factor, control_displacement, iterations (n, the first row is the start), and below it nodes (but
-//     for velocity and acceleration, which are zero), elements and sections as above; attributes control, at, completed
+//     for velocity and acceleration, which are zero), elements, sections and fibers as above; attributes control, at, completed
 //   /model, what stands where: model_tables.hpp
 //   /scene, the complete scene as text; attributes program, version, finished
 // Only histories named in OutputOptions::history have rows; without any, a step costs nothing.

@@ -1,6 +1,8 @@
 // Static stages in results.h5, summary.json, the terminal's table and ParaView frames.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +12,8 @@
 #include "tests/output/sample_pair.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/hdf5_contents.hpp"
+#include "tests/support/hdf5_reader.hpp"
+#include "tests/verification/two_story_model.hpp"
 #ifdef NSFRAME_HAS_VTK
 #include "output/stage_frames.hpp"
 #endif
@@ -92,6 +96,31 @@ TEST_CASE("results.h5 has the curve and the histories of every static stage, alo
     std::memcpy(&finished, contents.at(".@finished").data() + contents.at(".@finished").size() - sizeof finished, sizeof finished);
     CHECK(finished == 1);
   }
+}
+
+TEST_CASE("fibers of a static stage carry the force of their section") {
+  const Scene scene = example_scene("section_shapes", {"static.to=3 mm"});
+  const Model model = model_of(scene);
+  Simulation simulation(model, scene.analysis);
+  const TemporaryFolder folder;
+  HistoryFile file(folder.path() / "results.h5", scene.output, "scene");
+  simulation.run({&file}, {}, {&file.stages()});
+  file.close();
+  const Hdf5Reader results(folder.path() / "results.h5");
+  const std::string base = "/static/push/fibers/force_beam/", sections = "/static/push/sections/force_beam/";
+  const auto numbers_of = [&](const std::string& name) { return results.numbers(name.c_str()); };
+  const std::vector<double> stress = numbers_of(base + "stress"), area = numbers_of(base + "area"), y = numbers_of(base + "y"), point = numbers_of(base + "point");
+  const std::vector<double> force = numbers_of(sections + "force");
+  const std::vector<std::string> element = results.texts((base + "element").c_str()), owner = results.texts((sections + "element").c_str());
+  const std::size_t last = stress.size() - area.size(), row = force.size() - 3 * owner.size();
+  REQUIRE(stress.size() == 7 * area.size());  // the start and six points
+  double moment = 0;
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    if (element[i] == "row.pipe" && point[i] == 1) moment -= stress[last + i] * area[i] * y[i];
+  }
+  const auto foot = static_cast<std::size_t>(std::find(owner.begin(), owner.end(), "row.pipe") - owner.begin());
+  CHECK(std::abs(moment) > 1e3);
+  CHECK(moment == doctest::Approx(force[row + 3 * foot + 1]).epsilon(1e-9));
 }
 
 TEST_CASE("the summary tells of the stages, and of steps where an algorithm failed") {
