@@ -113,6 +113,7 @@ int ModelBuilder::node(const StructureDescription& structure, const Reference& r
     mentioned_[static_cast<std::size_t>(found->second)] = true;
     return found->second;
   }
+  if (reference.name.empty() && !diagnostics_.empty()) return -1;  // what should have named it was told
   std::vector<std::string> known;
   for (const NodeDescription& candidate : structure.nodes) known.push_back(candidate.id);
   diagnostics_.error(reference.at, fmt::format("node '{}' is not defined in structure '{}'{}", reference.name,

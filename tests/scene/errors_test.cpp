@@ -185,6 +185,14 @@ TEST_CASE("sections that can't be made are errors") {
         "s.toml:1:10: error: a section needs one of: " + section_choices());
 }
 
+TEST_CASE("a support that names no node is reported once, for its type") {
+  Diagnostics diagnostics;
+  const Scene scene = parse_scene("[structure.a]\nnodes = [[1, 0, 0, 0]]\nmasses = [[1, 1]]\nmay_move_freely = true\nsupports = [\"1\"]\n", "s.toml", {}, {}, diagnostics);
+  CHECK_THROWS_AS(build_model(scene.model, diagnostics), InputError);
+  REQUIRE(diagnostics.messages().size() == 1);
+  CHECK(diagnostics.messages()[0] == "s.toml:5:13: error: supports must be a table or a row of values, not a text");
+}
+
 TEST_CASE("an error in a material or a section is reported once, whatever is built of it") {
   const std::string frame = "[structure.a]\nelement = \"displacement\"\nnodes = [[1, 0, 0, 0], [2, 0, 0, 2]]\n"
                             "supports = { 1 = \"fixed\" }\nmasses = [[2, 100]]\nbeams = [[1, 1, 2, \"c\"]]\n";
