@@ -80,7 +80,7 @@ DeadResponse ElasticBeams::dead_response(int element, const Vector6&, const Vect
   return response;
 }
 
-ElementShape ElasticBeams::shape(int element) const { return member_shape(element, &element_at(element).outline); }
+ElementShape ElasticBeams::shape(int element) const { return member_shape(element, &element_at(element).outline, element_at(element).releases); }
 
 std::vector<SectionResult> ElasticBeams::basic_sections(int element, const Vector6& deformation, const ActingLoad& acting,
                                                         const double*) const {

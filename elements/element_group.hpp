@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,7 @@ struct ElementShape {
   double length = 0;              // [m]
   std::array<Vector3, 2> offset{Vector3::Zero(), Vector3::Zero()};  // from the nodes to the ends [m]
   const SectionOutline* outline = nullptr;  // may be null or empty
+  std::optional<Matrix12> ends;   // displacements of the ends by the nodes', where some moments are released (member_ends())
 };
 
 // Where an element is at a displacement, for the output.

@@ -35,7 +35,7 @@ void FiberBeams::start_basic(int element, const double* committed, double* trial
 }
 
 ElementShape FiberBeams::shape(int element) const {
-  return member_shape(element, &element_at(element).outline);
+  return member_shape(element, &element_at(element).outline, element_at(element).releases);
 }
 
 int FiberBeams::fibers(int element) const {

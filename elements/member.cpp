@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "elements/member_mass.hpp"
+
 namespace nsframe {
 
 namespace {
@@ -129,9 +131,15 @@ Matrix12 Members::geometric_change(int element, const Vector12& displacement, co
   return 0.5 * (tangent_at(1) - tangent_at(-1));
 }
 
-ElementShape Members::member_shape(int element, const SectionOutline* outline) const {
+ElementShape Members::member_shape(int element, const SectionOutline* outline, const Releases& releases) const {
   const BeamFrame& frame = this->frame(element);
-  return {outline != nullptr, geometry_.finite(), frame.axes, frame.length, frame.offset, outline};
+  ElementShape shape{outline != nullptr, geometry_.finite(), frame.axes, frame.length, frame.offset, outline, {}};
+  if (!releases.any()) return shape;
+  Matrix6 prismatic = Matrix6::Identity();  // what the shape functions bend like
+  prismatic.block<2, 2>(1, 1) << 4, 2, 2, 4;
+  prismatic.block<2, 2>(3, 3) << 4, 2, 2, 4;
+  shape.ends = member_ends(releases, prismatic, frame);
+  return shape;
 }
 
 ElementPose Members::pose(int element, const Vector12& displacement, const double* history) const {

@@ -5,6 +5,7 @@
 #include "elements/dead_load.hpp"
 #include "elements/member_geometry.hpp"
 #include "elements/member_load.hpp"
+#include "elements/releases.hpp"
 
 namespace nsframe {
 
@@ -73,7 +74,7 @@ class Members : public ElementGroup {
   bool loaded(int element) const { return places_[static_cast<std::size_t>(element)].loaded; }
 
   // A beam with an outline, or a straight bar without.
-  ElementShape member_shape(int element, const SectionOutline* outline) const;
+  ElementShape member_shape(int element, const SectionOutline* outline, const Releases& releases = {}) const;
   const MemberGeometry& geometry() const { return geometry_; }
 
  private:

@@ -31,16 +31,16 @@ ContactPoint beam_point(const ElementNodes& nodes, const ElementShape& shape, co
   ContactPoint point;
   point.position = first_node + shape.offset[0] + along * shape.length * shape.axes.row(0).transpose();
   point.face = true;
-  for (int end = 0; end < 2; ++end) {
-    Matrix6 share;
-    for (int row = 0; row < 6; row += 3) {
-      const Matrix3 by_shift = shape.axes.transpose() * local.block<3, 3>(row, 6 * end) * shape.axes;
-      share.block<3, 3>(row, 0) = by_shift;
-      share.block<3, 3>(row, 3) = shape.axes.transpose() * local.block<3, 3>(row, 6 * end + 3) * shape.axes -
-                                  by_shift * skew(shape.offset[static_cast<std::size_t>(end)]);
+  Eigen::Matrix<double, 6, 12> of_ends;  // in global axes
+  for (int row = 0; row < 6; row += 3) {
+    for (int column = 0; column < 12; column += 3) {
+      of_ends.block<3, 3>(row, column) = shape.axes.transpose() * local.block<3, 3>(row, column) * shape.axes;
     }
-    point.shares.push_back({nodes[static_cast<std::size_t>(end)], share});
   }
+  Matrix12 ends = Matrix12::Identity();
+  for (const int end : {0, 1}) ends.block<3, 3>(6 * end, 6 * end + 3) = -skew(shape.offset[static_cast<std::size_t>(end)]);
+  const Eigen::Matrix<double, 6, 12> of_nodes = of_ends * shape.ends.value_or(ends);
+  for (const int end : {0, 1}) point.shares.push_back({nodes[static_cast<std::size_t>(end)], of_nodes.middleCols<6>(6 * end)});
   return point;
 }
 

@@ -167,6 +167,16 @@ TEST_CASE("a slab meets a column at mid-height: at its node, or by the beam's sh
   CHECK(mobility(shapes) == doctest::Approx(1 / 1000.0 + 0.25 / 5000 + 0.25 / 200).epsilon(1e-12));
 }
 
+TEST_CASE("a slab that meets a column with a pinned head bends it as a propped cantilever, and does not turn the joint") {
+  ModelDescription d = slab_and_column(false);
+  d.structures[1].elements[0].releases.basic = {false, false, true, false, true, false};
+  // by hand: (3 x^2 - x^3) / 2 of the head's displacement at half the height
+  CHECK(mobility(build(d)) == doctest::Approx(1 / 1000.0 + 0.3125 * 0.3125 / 5000).epsilon(1e-12));
+  d.structures[1].elements[0].releases.basic = {false, true, true, true, true, false};  // a strut: straight between its ends
+  d.structures[1].supports[0] = fixed("0", {true, true, true, false, false, false});
+  CHECK(mobility(build(d)) == doctest::Approx(1 / 1000.0 + 0.25 / 5000).epsilon(1e-12));
+}
+
 TEST_CASE("two masses in one impact: slab against the node of a column part as by momentum and restitution") {
   ModelDescription d = slab_and_column(true);
   d.structures[0].initial_velocities = {{{"5", {}}, 0, 1.0}};
