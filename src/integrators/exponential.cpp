@@ -334,7 +334,7 @@ std::vector<std::string> Exponential::describe() const {
                                 resting_frequency() / (2 * pi), farthest_turn));
   }
   if (options_.accuracy > 0) {
-    lines.push_back(fmt::format("parts of steps by an error estimate, accuracy {:g} of the peak", options_.accuracy));
+    lines.push_back(fmt::format("parts of steps, or over up to {} of them, by an error estimate, accuracy {:g} of the peak", exponential_steps, options_.accuracy));
   }
   return lines;
 }
