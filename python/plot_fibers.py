@@ -11,12 +11,10 @@ import pathlib
 import sys
 
 import h5py
-import matplotlib
+import numpy as np
+from matplotlib.collections import EllipseCollection
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from matplotlib.collections import EllipseCollection  # noqa: E402
+import static_stage
 
 
 def parse():
@@ -32,13 +30,9 @@ def parse():
 def read(path, name, point):
     """By the element's name: y, z [m], area [m2], material and stress [Pa] of the fibers."""
     with h5py.File(path, "r") as file:
-        stages = list(file.get("static", {}))
-        if not stages:
-            sys.exit("results.h5 has no static stage")
-        if name and name not in stages:
-            sys.exit(f"there is no stage '{name}', there are {', '.join(stages)}")
+        _, stage = static_stage.find(file, name, -1)
         sections = {}
-        for group in file["static"][name or stages[-1]].get("fibers", {}).values():
+        for group in stage.get("fibers", {}).values():
             shown = (group["point"][:] == point) & (group["area"][:] > 0)  # not the concrete that bars displace
             elements = np.array([element.decode() for element in group["element"][:]])
             for element in dict.fromkeys(elements):
@@ -59,31 +53,22 @@ def relative(section):
     return ratio
 
 
+def draw(chart, section):
+    y, z = 1e3 * section["y"], 1e3 * section["z"]
+    order = np.argsort(-section["area"])  # bars over the concrete around them
+    size = 1e3 * np.sqrt(4 * section["area"][order] / np.pi)
+    chart.add_collection(EllipseCollection(size, size, np.zeros(len(size)), units="x", offsets=np.column_stack((z, y))[order],
+                                           offset_transform=chart.transData, array=relative(section)[order], cmap="coolwarm", clim=(-1, 1)))
+    half = 1.1 * max(np.ptp(y), np.ptp(z)) / 2 + 15
+    chart.set_xlim((z.min() + z.max()) / 2 - half, (z.min() + z.max()) / 2 + half)
+    chart.set_ylim((y.min() + y.max()) / 2 - half, (y.min() + y.max()) / 2 + half)
+    chart.set_aspect("equal")
+
+
 def main():
     a = parse()
     sections = read(a.run / "results.h5", a.stage, a.point)
-    rows = -(-len(sections) // a.columns)
-    figure, axes = plt.subplots(rows, a.columns, figsize=(2.6 * a.columns, 2.6 * rows), squeeze=False)
-    for chart, (name, section) in zip(axes.flat, sections.items()):
-        y, z, ratio = 1e3 * section["y"], 1e3 * section["z"], relative(section)
-        order = np.argsort(-section["area"])  # bars over the concrete around them
-        size = 1e3 * np.sqrt(4 * section["area"][order] / np.pi)
-        chart.add_collection(EllipseCollection(size, size, np.zeros(len(size)), units="x", offsets=np.column_stack((z, y))[order],
-                                               offset_transform=chart.transData, array=ratio[order], cmap="coolwarm", clim=(-1, 1)))
-        half = 1.1 * max(np.ptp(y), np.ptp(z)) / 2 + 15
-        chart.set_xlim((z.min() + z.max()) / 2 - half, (z.min() + z.max()) / 2 + half)
-        chart.set_ylim((y.min() + y.max()) / 2 - half, (y.min() + y.max()) / 2 + half)
-        chart.set_aspect("equal")
-        chart.set_title(name, fontsize=9)
-        chart.tick_params(labelsize=7)
-    for chart in axes.flat[len(sections):]:
-        chart.axis("off")
-    for chart in axes[-1]:
-        chart.set_xlabel("local z, mm", fontsize=8)
-    for chart in axes[:, 0]:
-        chart.set_ylabel("local y, mm", fontsize=8)
-    figure.tight_layout()
-    figure.savefig(a.output, dpi=110)
+    static_stage.draw_grid(a.output, sections, a.columns, (2.6, 2.6), ("local z, mm", "local y, mm"), draw)
 
 
 if __name__ == "__main__":

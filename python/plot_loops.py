@@ -10,10 +10,8 @@ import pathlib
 import sys
 
 import h5py
-import matplotlib
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
+import static_stage
 
 FORCE = {"spring": 0, "link": 6, "truss": 6}  # which of the twelve forces on the ends is tension, by kind
 COLOR = "#0072b2"
@@ -31,12 +29,7 @@ def parse():
 def read(path, name):
     """The stage's control displacements [m], and forces [N] by the element's name."""
     with h5py.File(path, "r") as file:
-        stages = list(file.get("static", {}))
-        if not stages:
-            sys.exit("results.h5 has no static stage")
-        if name and name not in stages:
-            sys.exit(f"there is no stage '{name}', there are {', '.join(stages)}")
-        stage = file["static"][name or stages[0]]
+        _, stage = static_stage.find(file, name)
         forces = {}
         for kind, group in stage.get("elements", {}).items():
             if kind in FORCE:
@@ -50,22 +43,13 @@ def read(path, name):
 def main():
     a = parse()
     displacement, forces = read(a.run / "results.h5", a.stage)
-    rows = -(-len(forces) // a.columns)
-    figure, axes = plt.subplots(rows, a.columns, figsize=(2.2 * a.columns, 1.9 * rows), squeeze=False, sharex=True)
-    for chart, (name, force) in zip(axes.flat, forces.items()):
+
+    def draw(chart, force):
         chart.axhline(0, color="0.8", linewidth=0.6)
         chart.axvline(0, color="0.8", linewidth=0.6)
         chart.plot(1e3 * displacement, 1e-3 * force, color=COLOR, linewidth=0.7)
-        chart.set_title(name, fontsize=9)
-        chart.tick_params(labelsize=7)
-    for chart in axes.flat[len(forces):]:
-        chart.axis("off")
-    for chart in axes[-1]:
-        chart.set_xlabel("displacement, mm", fontsize=8)
-    for chart in axes[:, 0]:
-        chart.set_ylabel("force, kN", fontsize=8)
-    figure.tight_layout()
-    figure.savefig(a.output, dpi=110)
+
+    static_stage.draw_grid(a.output, forces, a.columns, (2.2, 1.9), ("displacement, mm", "force, kN"), draw, sharex=True)
 
 
 if __name__ == "__main__":

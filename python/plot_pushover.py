@@ -17,6 +17,8 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
+import static_stage  # noqa: E402
+
 COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"]  # Okabe-Ito
 COMPONENTS = {"x": 0, "y": 1, "z": 2}
 
@@ -34,13 +36,8 @@ def parse():
 
 def read(path, name):
     with h5py.File(path, "r") as file:
-        stages = list(file.get("static", {}))
-        if not stages:
-            sys.exit("results.h5 has no static stage")
-        if name and name not in stages:
-            sys.exit(f"there is no stage '{name}', there are {', '.join(stages)}")
-        stage = file["static"][name or stages[0]]
-        run = {"name": name or stages[0], "at": stage.attrs["at"], "factor": stage["load_factor"][:],
+        name, stage = static_stage.find(file, name)
+        run = {"name": name, "at": stage.attrs["at"], "factor": stage["load_factor"][:],
                "displacement": stage["control_displacement"][:], "yielded": None, "ids": []}
         sections = stage.get("sections")
         fibers = [kind for kind in (sections or {}).values() if kind["peak_strain_ratio"][:].any()]  # elastic ones have none
