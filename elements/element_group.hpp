@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,7 +27,7 @@ struct ElementShape {
   double length = 0;              // [m]
   std::array<Vector3, 2> offset{Vector3::Zero(), Vector3::Zero()};  // from the nodes to the ends [m]
   const SectionOutline* outline = nullptr;  // may be null or empty
-  std::optional<Matrix12> ends;   // displacements of the ends by the nodes', where some moments are released (member_ends())
+  Matrix12 ends = Matrix12::Identity();  // of a beam: displacements of its ends by the nodes' (member_ends())
 };
 
 // Where an element is at a displacement, for the output.

@@ -133,13 +133,10 @@ Matrix12 Members::geometric_change(int element, const Vector12& displacement, co
 
 ElementShape Members::member_shape(int element, const SectionOutline* outline, const Releases& releases) const {
   const BeamFrame& frame = this->frame(element);
-  ElementShape shape{outline != nullptr, geometry_.finite(), frame.axes, frame.length, frame.offset, outline, {}};
-  if (!releases.any()) return shape;
   Matrix6 prismatic = Matrix6::Identity();  // what the shape functions bend like
   prismatic.block<2, 2>(1, 1) << 4, 2, 2, 4;
   prismatic.block<2, 2>(3, 3) << 4, 2, 2, 4;
-  shape.ends = member_ends(releases, prismatic, frame);
-  return shape;
+  return {outline != nullptr, geometry_.finite(), frame.axes, frame.length, frame.offset, outline, member_ends(releases, prismatic, frame)};
 }
 
 ElementPose Members::pose(int element, const Vector12& displacement, const double* history) const {

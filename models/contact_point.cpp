@@ -37,9 +37,7 @@ ContactPoint beam_point(const ElementNodes& nodes, const ElementShape& shape, co
       of_ends.block<3, 3>(row, column) = shape.axes.transpose() * local.block<3, 3>(row, column) * shape.axes;
     }
   }
-  Matrix12 ends = Matrix12::Identity();
-  for (const int end : {0, 1}) ends.block<3, 3>(6 * end, 6 * end + 3) = -skew(shape.offset[static_cast<std::size_t>(end)]);
-  const Eigen::Matrix<double, 6, 12> of_nodes = of_ends * shape.ends.value_or(ends);
+  const Eigen::Matrix<double, 6, 12> of_nodes = of_ends * shape.ends;
   for (const int end : {0, 1}) point.shares.push_back({nodes[static_cast<std::size_t>(end)], of_nodes.middleCols<6>(6 * end)});
   return point;
 }

@@ -98,6 +98,12 @@ class Observer {
   virtual void resume(const Model& model, const State& state, const Snapshot& snapshot) { (void)snapshot; start(model, state); }
 };
 
+// One that never reads State::history.
+class MotionObserver : public Observer {
+ public:
+  double next_history_time() const final { return std::numeric_limits<double>::infinity(); }
+};
+
 // How one solution algorithm did in one step.
 struct Attempt {
   std::string algorithm;

@@ -6,12 +6,11 @@
 
 namespace nsframe::app {
 
-class ProgressBar : public Observer {
+class ProgressBar : public MotionObserver {
  public:
   ProgressBar(double duration, bool quiet);
   void start(const Model& model, const State& state) override;
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
-  double next_history_time() const override { return std::numeric_limits<double>::infinity(); }
   void impact(const Impact&) override { ++impacts_; }
   void finish() override;
   void save(Snapshot& snapshot) override;

@@ -16,41 +16,6 @@ namespace {
 
 constexpr int quiet_sampling = 16;  // steps between two looks at the quiet fibers
 
-// The sums by name, for snapshots.
-template <class Sums, class Visit>
-void visit_sums(Sums& sums, const Visit& visit) {
-  visit("steps", sums.steps);
-  visit("newton_iterations", sums.newton_iterations);
-  visit("halved_steps", sums.halved_steps);
-  visit("laddered_steps", sums.laddered_steps);
-  visit("guessed_steps", sums.guessed_steps);
-  visit("solves", sums.solves);
-  visit("evaluations", sums.evaluations);
-  visit("rejected_parts", sums.rejected_parts);
-  visit("stiffened_steps", sums.stiffened_steps);
-  visit("quiet_fibers", sums.quiet_fibers);
-  visit("quiet_samples", sums.quiet_samples);
-  visit("kinetic", sums.energy.kinetic);
-  visit("strain", sums.energy.strain);
-  visit("damping", sums.energy.damping);
-  visit("contact", sums.energy.contact);
-  visit("friction", sums.energy.friction);
-  visit("created", sums.created.sum);
-  visit("created_largest", sums.created.largest);
-  visit("created_largest_time", sums.created.largest_time);
-  visit("numerical", sums.energy.numerical);
-  visit("input", sums.energy.input);
-  visit("initial", sums.energy.initial);
-  visit("largest_energy", sums.largest_energy);
-  visit("worst_balance_error", sums.worst_balance_error);
-  visit("max_penetration", sums.max_penetration);
-  visit("max_complementarity_error", sums.max_complementarity_error);
-  visit("accumulations_ended", sums.accumulations.ended);
-  visit("accumulations_largest_bounce", sums.accumulations.largest_bounce);
-  visit("accumulations_plastic", sums.accumulations.plastic);
-  visit("observer_seconds", sums.observer_seconds);
-}
-
 // Numbers that change when the mass, a record or a file of targets does: a scene only names its files.
 std::vector<double> fingerprint(const Model& model) {
   std::vector<double> numbers{model.mass.norm(), model.viscous_damping.norm(), model.gravity_load.norm()};
@@ -310,6 +275,7 @@ void TimeHistory::save(const State& committed) {
     snapshot.put("time_history.start", start_);
     snapshot.put("time_history.rest_rounding", rest_rounding_);
     snapshot.put("time_history.wall_seconds", earlier_seconds_ + clock_.seconds() - loop_start_);
+    snapshot.put("time_history.observer_seconds", result_.observer_seconds);
     visit_sums(result_, [&](const char* name, auto value) {
       snapshot.put(std::string("time_history.") + name, static_cast<double>(value));
     });
@@ -336,6 +302,7 @@ void TimeHistory::restore(State& committed) {
   scheme_.restore(system_, snapshot);
   start_ = snapshot.number("time_history.start");
   rest_rounding_ = snapshot.number("time_history.rest_rounding");
+  result_.observer_seconds = snapshot.number("time_history.observer_seconds");
   visit_sums(result_, [&](const char* name, auto& value) {
     value = static_cast<std::remove_reference_t<decltype(value)>>(snapshot.number(std::string("time_history.") + name));
   });

@@ -4,29 +4,13 @@
 
 #include <functional>
 
+#include "integrators/run_sums.hpp"
 #include "integrators/scheme.hpp"
 #include "integrators/shown_states.hpp"
 
 namespace nsframe {
 
 inline constexpr std::size_t most_ladder_records = 200;
-
-// Sums over the accepted steps.
-struct RunSums {
-  int steps = 0;
-  long newton_iterations = 0, halved_steps = 0, laddered_steps = 0;
-  long guessed_steps = 0, solves = 0, evaluations = 0, rejected_parts = 0, stiffened_steps = 0;
-  double quiet_fibers = 0;           // sum over the steps looked at
-  long quiet_samples = 0;
-  Energy energy;
-  double largest_energy = 0;         // of all kinds and steps so far [J]
-  double worst_balance_error = 0;    // relative to the largest energy so far
-  double max_penetration = 0;        // [m]
-  double max_complementarity_error = 0;
-  Accumulations accumulations;
-  std::vector<Slip> slips;           // one a pair with friction
-  CreatedEnergy created;
-};
 
 struct TimeHistoryResult : RunSums {
   std::vector<Impact> impacts;

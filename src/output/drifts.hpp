@@ -9,11 +9,10 @@
 
 namespace nsframe {
 
-class DriftTracker : public Observer {
+class DriftTracker : public MotionObserver {
  public:
   void start(const Model& model, const State& state) override;
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
-  double next_history_time() const override { return std::numeric_limits<double>::infinity(); }
   void save(Snapshot& snapshot) override;
   void resume(const Model& model, const State& state, const Snapshot& snapshot) override;
 

@@ -14,14 +14,13 @@
 
 namespace nsframe {
 
-class FloorSpectra : public Observer {
+class FloorSpectra : public MotionObserver {
  public:
   // `dt`: of the steps [s]
   FloorSpectra(const FloorSpectraOptions& options, double dt);
 
   void start(const Model& model, const State& state) override;
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
-  double next_history_time() const override { return std::numeric_limits<double>::infinity(); }
   void save(Snapshot& snapshot) override;
   void resume(const Model& model, const State& state, const Snapshot& snapshot) override;
 

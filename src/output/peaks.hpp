@@ -9,14 +9,13 @@
 
 namespace nsframe {
 
-class PeakTracker : public Observer {
+class PeakTracker : public MotionObserver {
  public:
   // "structure.node"; empty: all nodes
   explicit PeakTracker(std::vector<std::string> nodes = {}) : names_(std::move(nodes)) {}
 
   void start(const Model& model, const State& state) override;
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
-  double next_history_time() const override { return std::numeric_limits<double>::infinity(); }
   void save(Snapshot& snapshot) override;
   void resume(const Model& model, const State& state, const Snapshot& snapshot) override;
 

@@ -15,11 +15,10 @@ struct SlidingFault {
   double slid_off = 0, off_time = 0;     // beyond its room, while touching [m], [s]
 };
 
-class SlidingWatch : public Observer {
+class SlidingWatch : public MotionObserver {
  public:
   void start(const Model& model, const State& state) override;
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
-  double next_history_time() const override { return std::numeric_limits<double>::infinity(); }
   void save(Snapshot& snapshot) override;
   void resume(const Model& model, const State& state, const Snapshot& snapshot) override;
 

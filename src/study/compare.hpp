@@ -8,12 +8,11 @@
 namespace nsframe {
 
 // Keeps the displacements of nodes along x, y, z each `interval` [s], a multiple of the run's dt.
-class HistoryRecorder : public Observer {
+class HistoryRecorder : public MotionObserver {
  public:
   HistoryRecorder(std::vector<int> nodes, double interval, double dt);
   void start(const Model& model, const State& state) override;
   void step(const State& before, const State& after, const StepReport& report, const Energy& energy) override;
-  double next_history_time() const override { return std::numeric_limits<double>::infinity(); }
   const std::vector<VectorX>& rows() const { return rows_; }  // the first is the start
 
  private:

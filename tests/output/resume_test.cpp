@@ -28,12 +28,11 @@ namespace {
 
 constexpr int last_checkpoint = 2000, killed_at = 2345;  // steps
 
-class Killer : public Observer {
+class Killer : public MotionObserver {
  public:
   void step(const State&, const State&, const StepReport& report, const Energy&) override {
     if (report.step == killed_at) raise(SIGKILL);
   }
-  double next_history_time() const override { return std::numeric_limits<double>::infinity(); }
 };
 
 struct Outcome {
